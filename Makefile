@@ -20,23 +20,28 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
+# uv installs in seconds what takes pip two minutes. It asks the index that pip asks; where it cannot be had or does not get
+# there, pip installs. Neither compiles: what is imported is compiled then, and that is a third of it.
+INDEX = $(shell $(BIN)/python -m pip config list 2> /dev/null | sed -n "s/^[^=]*[.]index-url='\(.*\)'/UV_DEFAULT_INDEX=\1/p" | head -n 1)
+INSTALL = install() { $(INDEX) $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps "$$@" || $(PIP) --no-compile --no-deps "$$@"; }; install
+
+$(VENV)/uv.stamp: requirements-uv.lock | $(BIN)/python
+	-$(PIP) --no-deps --require-hashes --requirement requirements-uv.lock
+	@touch $@
+
 # The locks name every package that is needed, with the digests of its files.
-$(VENV)/run.stamp: pyproject.toml requirements.lock | $(BIN)/python
-	$(PIP) --no-deps --require-hashes --requirement requirements.lock
-	$(PIP) --no-deps --no-build-isolation --editable .
+$(VENV)/run.stamp: pyproject.toml requirements.lock | $(VENV)/uv.stamp
+	$(INSTALL) --require-hashes --requirement requirements.lock
+	$(INSTALL) --no-build-isolation --editable .
 	@touch $@
 
-$(VENV)/test.stamp: requirements-test.lock $(VENV)/run.stamp
-	$(PIP) --no-compile --no-deps --require-hashes --requirement requirements-test.lock
-	@touch $@
-
-$(VENV)/docs.stamp: requirements-docs.lock $(VENV)/run.stamp
-	$(PIP) --no-compile --no-deps --require-hashes --requirement requirements-docs.lock
+$(VENV)/test.stamp $(VENV)/docs.stamp: $(VENV)/%.stamp: requirements-%.lock $(VENV)/run.stamp
+	$(INSTALL) --require-hashes --requirement $<
 	@touch $@
 
 # Where the system has no Chromium and Playwright's cannot be had, the tests say so at their end.
 $(VENV)/browser.stamp: $(VENV)/test.stamp
-	@command -v chromium > /dev/null || command -v google-chrome > /dev/null || $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
+	@for name in chromium-headless-shell chromium google-chrome; do command -v $$name > /dev/null && exit; done; $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
 	@touch $@
 
 demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its region and write demo/report.html.
@@ -104,6 +109,7 @@ lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	$(LOCK) --constraint $(VENV)-lock/all --group build --output-file requirements.lock
 	$(MORE) --group test --output-file requirements-test.lock
 	$(MORE) --group docs --output-file requirements-docs.lock
+	echo uv | $(LOCK:pyproject.toml=-) --output-file requirements-uv.lock
 	$(VENV)-lock/bin/python -m tools.wheels
 	rm -rf $(VENV)-lock
 

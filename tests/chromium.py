@@ -22,7 +22,8 @@ _FLAGS = [
     "--disable-sync",
 ]
 _FLAT = ["--disable-gpu"]
-_SCENES = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # drawn by the processor
+# Drawn by the processor. SwiftShader draws the scenes alone: the page around them would cost it more than all scenes of a test.
+_SCENES = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
 
 
 NONE = "pages are looked at in Chromium, and there is none here"
@@ -45,7 +46,7 @@ def opened(missing: Callable[[str], object] = sys.exit, scenes: bool = False) ->
     """
     from playwright.sync_api import Error, sync_playwright
 
-    path = shutil.which("chromium") or shutil.which("google-chrome")
+    path = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "google-chrome"))), None)
     with sync_playwright() as playwright:
         try:
             browser = playwright.chromium.launch(executable_path=path, args=_FLAGS + (_SCENES if scenes else _FLAT))

@@ -23,7 +23,7 @@ from holdfast.kernels import set_threads
 hypothesis.settings.register_profile("holdfast", deadline=None)
 hypothesis.settings.load_profile("holdfast")
 
-pytest_plugins = ["slow"]
+pytest_plugins = ["slow", "workers"]
 
 _DRAW = 20120831
 _MADE: list[str] = []

@@ -13,9 +13,10 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import slow
+import workers
 
 ROOT = Path(__file__).parents[1]
-LOCKS = {"run": ["requirements.lock"]}
+LOCKS = {"run": ["requirements.lock"], "uv": ["requirements-uv.lock"]}
 LOCKS |= {group: ["requirements.lock", f"requirements-{group}.lock"] for group in ("test", "docs")}
 PROBE = """
 import chromium
@@ -77,6 +78,13 @@ def test_without_a_browser_tests_of_pages_are_skipped_loudly_and_fail_where_it_i
     loud = "NO BROWSER, 1 TESTS SKIPPED" in done.stdout
     assert (done.returncode, loud) == ((1, False) if required else (0, True)), done.stdout
     assert "pages are looked at in Chromium, and there is none here" in done.stdout
+
+
+def test_what_waits_for_pages_is_shared_by_folder_and_the_rest_by_file():
+    named = {folder: [str(path.relative_to(ROOT)) for path in (ROOT / folder).glob("test_*.py")] for folder in workers.PAGES}
+    assert all(len(files) > 1 for files in named.values())
+    assert {workers.share_of(f"{file}::test_it[a/b]") for files in named.values() for file in files} == set(workers.PAGES)
+    assert workers.share_of("tests/arm/test_urdf.py::test_it[a::b]") == "tests/arm/test_urdf.py"
 
 
 def test_every_package_has_tests_that_are_quick():

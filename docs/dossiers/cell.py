@@ -3,12 +3,9 @@
 Change the arms, the box and what is needed to your own: python docs/dossiers/cell.py --out FOLDER
 """
 
-import argparse
-from pathlib import Path
-
 import numpy as np
-from markupsafe import Markup
 from matplotlib.figure import Figure
+from owners_page import links, run, span, write
 
 import holdfast as hf
 from holdfast import report
@@ -44,13 +41,12 @@ def left_figure(runs):
     return figure
 
 
-def main(out, poses=500):
-    out.mkdir(parents=True, exist_ok=True)
+def main(out, count=500):
     tool = np.eye(4)
     tool[2, 3] = FINGERS
     arms = (hf.arms.load("panda"), hf.arms.load("xarm7").with_tool(tool))
     region = hf.Region.box(**BOX, name="table of the cell")
-    runs = [hf.assess(arm, region, poses=poses, seed=1, optimise=True, after_lock=True) for arm in arms]
+    runs = [hf.assess(arm, region, poses=count, seed=1, optimise=True, after_lock=True) for arm in arms]
     compared = hf.compare_assessments(runs, NAMES, NEEDED)
     columns = [run.columns for run in runs]
     found, chosen = ([np.nan_to_num(c[x][:]) >= NEEDED for c in columns] for x in ("index", "optimised_index"))
@@ -69,50 +65,34 @@ def main(out, poses=500):
         f"Choosing the configurations takes the first share from {' and from '.join(gains)}."
     )
     protect = []
-    for name, run in zip(NAMES, runs, strict=True):
-        u = compared.upgrades(name)[0]
-        joint, p = min(run.survival().items(), key=lambda x: x[1].value)
+    for name, run_of in zip(NAMES, runs, strict=True):
+        u, (joint, p) = compared.upgrades(name)[0], min(run_of.survival().items(), key=lambda x: x[1].value)
         gain = (
             f"{u.joint}, {u.before:.1%} to {u.after:.1%}: {100 * u.gain:.1f} points ({100 * u.low:.1f} to {100 * u.high:.1f})"
         )
-        protect.append((name, gain, f"{joint}, {p.value:.1%} ({p.low:.1%} to {p.high:.1%})"))
+        protect.append((name, gain, f"{joint}, {span(p, digits=1)}"))
     pages = [compared.report(out / "comparison.html")]
-    pages += [run.report(out / f"{name}.html", NEEDED) for name, run in zip(NAMES, runs, strict=True)]
-    links = Markup(" · ").join(Markup('<a href="{0}">{0}</a>').format(p.name) for p in pages)
-    bars = left_figure(runs)
-    report.save_png(bars, out / "cell.png", dpi=110)
-    about = [hf.arms.about(name) for name in NAMES]
+    pages += [one.report(out / f"{name}.html", NEEDED) for name, one in zip(NAMES, runs, strict=True)]
+    figure = left_figure(runs)
     method = (
-        f"{poses} poses with the tool down, the same for both arms; {region.describe()}. "
-        f"{'; '.join(f'{a.name}: {a.summary}, licence {a.licence}' for a in about)}. "
+        f"{count} poses with the tool down, the same for both arms; {region.describe()}. "
+        f"{'; '.join(f'{a.name}: {a.summary}, licence {a.licence}' for a in map(hf.arms.about, NAMES))}. "
         f"Both have a tool of {FINGERS} m; the panda's hand is turned by 45 degrees on its flange. {NEEDED} is relative "
         "manipulability. A lock is at the angle that the joint had at another pose. A pose that is not found again counts "
         "as lost, and the intervals take the poses as independent. Not weighed: price, payload, speed, obstacles, the place "
         "of the base, how often each joint fails."
     )
-    section, heads = report.Section, ("joint to protect, poses kept (as found)", "lock that leaves least, poses reached")
-    page = report.Page(
-        "Which arm for this cell?",
-        answer,
-        [
-            section("Side by side", [report.Table(rows, ("at the same poses", "better", "shares", "difference"), wide=True)]),
-            section("What a lock leaves", [report.Picture(report.svg(bars, "left", "Bars"), "With 95 % intervals.")]),
-            section("Which joint to protect", [report.Table(protect, ("arm", *heads))]),
-            section("All of it", [report.Text(links)]),
-        ],
-        method=[report.Text(method)],
-        again=f"python docs/dossiers/cell.py --out FOLDER --poses {poses}",
-        footer="Written by holdfast. The pages linked lie beside this one.",
-    )
-    report.write(page, out / "index.html")
-    text = [answer, *(f"{name}: protect {gain}; the lock that leaves least: {least}" for name, gain, least in protect)]
-    (out / "cell.txt").write_text("\n\n".join(text) + "\n", encoding="utf-8")
-    print(*text, sep="\n\n")
+    evidence = {
+        "Side by side": report.Table(rows, ("at the same poses", "better", "shares", "difference"), wide=True),
+        "What a lock leaves": report.Picture(report.svg(figure, "left", "Bars"), "With 95 % intervals."),
+        "Which joint to protect": report.Table(
+            protect, ("arm", "joint to protect, poses kept (as found)", "lock that leaves least")
+        ),
+        "All of it": links(*pages),
+    }
+    more = [f"{name}: protect {gain}; the lock that leaves least: {least}" for name, gain, least in protect]
+    write(out, "cell", "Which arm for this cell?", answer, evidence, figure=figure, method=method, count=count, more=more)
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, required=True, help="folder for the pages")
-    parser.add_argument("--poses", type=int, default=500)
-    asked = parser.parse_args()
-    main(asked.out, asked.poses)
+    run(main, 500)

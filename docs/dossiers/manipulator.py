@@ -3,11 +3,8 @@
 Change the arm, the motions and the laws to your own: python docs/dossiers/manipulator.py --out FOLDER
 """
 
-import argparse
-from pathlib import Path
-
 import numpy as np
-from markupsafe import Markup
+from owners_page import links, run, span, write
 
 import holdfast as hf
 from holdfast import report
@@ -17,20 +14,13 @@ DISTANCE = (0.1, 0.5)  # m, of the commanded motions
 PRE_FAILURE_ERROR = 0.5  # of the failure-tolerant law: how far it may leave the commanded velocity while nothing has failed
 
 
-def span(d, scale, unit, digits=0):
-    """A value with its interval."""
-    value, low, high = (f"{scale * x:.{digits}f}".replace("-", "−") for x in (d.value, d.low, d.high))
-    return f"{value} {unit} ({low} to {high}, 95 %)"
-
-
-def main(out, motions=100):
-    out.mkdir(parents=True, exist_ok=True)
+def main(out, count=100):
     arm = hf.arms.load(ARM)
     laws = [
         hf.control.pseudoinverse(arm, TASK),
         hf.control.failure_tolerant(arm, TASK, pre_failure_error=PRE_FAILURE_ERROR),
     ]
-    drawn = hf.point_to_point(arm, motions, seed=1, distance=DISTANCE)
+    drawn = hf.point_to_point(arm, count, seed=1, distance=DISTANCE)
     compared = hf.compare_laws(laws, drawn.q0, drawn.target)
     plain, tolerant = compared.names
     error, gain = compared.change(tolerant, "error"), compared.gain(tolerant)
@@ -40,9 +30,9 @@ def main(out, motions=100):
         [compared.cost(n, "time", (0.5,))[0] for n in compared.names],
     )
     answer = (
-        f"After a lock that nobody has noticed, {plain} still reaches {span(compared.share_any(plain), 100, '%')} of the "
-        f"targets; {tolerant} {shown}: the mean end error changes by {span(error, 1000, 'mm')}, the targets reached by "
-        f"{span(gain, 100, 'points', 1)}. Its price before any failure: {1000 * stray[0]:.0f} mm off the straight line in the "
+        f"After a lock that nobody has noticed, {plain} still reaches {span(compared.share_any(plain))} of the "
+        f"targets; {tolerant} {shown}: the mean end error changes by {span(error, 1000, ' mm')}, the targets reached by "
+        f"{span(gain, 100, ' points', 1)}. Its price before any failure: {1000 * stray[0]:.0f} mm off the straight line in the "
         f"median, and {late[1]:.1f} s in place of {late[0]:.1f} s. "
         "Run it where the first is worth the second."
     )
@@ -53,41 +43,24 @@ def main(out, motions=100):
         astray = ", ".join(f"{1000 * np.median(e):.0f} mm" if e.size else "none" for e in lost)
         rows.append((joint, f"{cases[0].reachable.mean():.0%}", *(f"{c.share().value:.0%}" for c in cases), astray))
     figure = compared.plot("errors")
-    report.save_png(figure, out / "manipulator.png", dpi=80)
     full = compared.report(out / "laws.html")
     about, undecided = hf.arms.about(ARM), [100 * compared.share_any(name, "undecided").value for name in compared.names]
     method = (
-        f"{motions} motions of {DISTANCE[0]} to {DISTANCE[1]} m from random configurations, each made healthy and with each "
+        f"{count} motions of {DISTANCE[0]} to {DISTANCE[1]} m from random configurations, each made healthy and with each "
         f"joint locked from the start, by both laws. {about.summary}, licence {about.licence}; {about.source}. Kinematics "
         "alone: no inertia, no delay, no operator who corrects; joint limits are reported, not enforced. Each joint is as "
         f"likely to lock as any other. Undecided runs count as not reached: {undecided[0]:.1f} % and {undecided[1]:.1f} %. "
         "The interval of the end error is Student's t."
     )
     heads = ("locked", "within reach", f"{plain} reaches", f"{tolerant} reaches", "median error where not reached")
-    section = report.Section
-    page = report.Page(
-        "What the operator notices, and which law to run",
-        answer,
-        [
-            section("Joint by joint", [report.Table(rows, heads, wide=True)]),
-            section(
-                "How far off",
-                [report.Picture(report.svg(figure, "errors", "End errors, two laws"), "All locked joints together.")],
-            ),
-            section("All of it", [report.Text(Markup('<a href="{0}">{0}</a>').format(full.name))]),
-        ],
-        method=[report.Text(method)],
-        again=f"python docs/dossiers/manipulator.py --out FOLDER --motions {motions}",
-        footer="Written by holdfast. The page linked lies beside this one.",
-    )
-    report.write(page, out / "index.html")
-    (out / "manipulator.txt").write_text(answer + "\n", encoding="utf-8")
-    print(answer)
+    evidence = {
+        "Joint by joint": report.Table(rows, heads, wide=True),
+        "How far off": report.Picture(report.svg(figure, "errors", "End errors, two laws"), "All locked joints together."),
+        "All of it": links(full),
+    }
+    title = "What the operator notices, and which law to run"
+    write(out, "manipulator", title, answer, evidence, figure=figure, method=method, count=count)
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, required=True, help="folder for the pages")
-    parser.add_argument("--motions", type=int, default=100)
-    asked = parser.parse_args()
-    main(asked.out, asked.motions)
+    run(main, 100)

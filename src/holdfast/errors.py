@@ -20,7 +20,15 @@ class HoldfastError(Exception):
 
 
 class ArmError(HoldfastError, ValueError):
-    """An arm description (URDF, DH table, Python) that cannot be used."""
+    """An arm description (URDF, DH table, Python) that cannot be used.
+
+    Attributes:
+        tip: A link that the arm may be meant to end at, where the file leaves that open; else None.
+    """
+
+    def __init__(self, *words: object, tip: str | None = None) -> None:
+        super().__init__(*words)
+        self.tip = tip
 
 
 class TaskError(HoldfastError, ValueError):

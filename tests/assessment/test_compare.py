@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from pathlib import Path
@@ -13,6 +14,8 @@ import holdfast as hf
 from holdfast.arms.tool import attachment, attachment_text
 from holdfast.assessment import load_comparison
 from holdfast.present.assessment.comparison import build
+from holdfast.report.page import render
+from holdfast.words import interval
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -130,6 +133,34 @@ def test_an_empty_headline_says_who_is_nearest_and_why(runs):
     assert f"Nearest is straight. A lock of {straight['worst_joint']} is the worst failure" in line
     assert f"The median of the reached poses is {straight['median']:.3f}" in line
     assert f"at the best configuration of each pose it is {straight['optimised_median']:.3f}" in line
+
+
+@pytest.mark.parametrize("some", [slice(3), slice(4)])
+def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some):
+    names = ["straight", "side", "pa10", "position"][some]
+    html = render(build(hf.compare_assessments(runs[some], names, 0.05)))
+    box = re.search(r'<div[^>]* data-extra="threshold".*?<script[^>]*>(.*?)</script>', html, re.DOTALL)
+    labels = re.findall(r"<dt>(.*?)</dt>", box[0])
+    data = json.loads(box[1])
+    assert len(data["values"]) > 50
+    assert 0.05 in data["values"]
+    answers = dict(zip(labels, data["answers"], strict=True))
+    for name, run in zip(names, runs[some], strict=True):
+        assert answers.pop(name) == [interval(run.interval(at_least=x)) for x in data["values"]]
+        if run.optimised is not None:
+            told = [interval(run.interval(at_least=x, optimised=True)) for x in data["values"]]
+            assert answers.pop(f"{name}, best configurations") == told
+    # Who leads is said only of candidates with one task.
+    assert list(answers) == ["Largest probability"] * (some.stop == 3)
+    for x, text in zip(data["values"], answers.get("Largest probability", []), strict=False):
+        each = sorted((run.interval(at_least=x) for run in runs[some]), key=lambda p: -p.value)
+        if each[0].value == each[-1].value:
+            assert text == "all alike"
+        elif each[0].value == each[1].value:
+            assert text.endswith(" alike")
+        else:
+            best = max(names, key=lambda name: runs[names.index(name)].interval(at_least=x).value)
+            assert text == best + ("; its interval overlaps with the next" if each[1].high >= each[0].low else "")
 
 
 def test_the_page(comparison, runs, tmp_path):

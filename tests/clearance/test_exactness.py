@@ -7,10 +7,10 @@ from tests.clearance.geometry import pose
 
 import holdfast as hf
 from holdfast.cell import Box, Mesh, Points, Sphere
-from holdfast.clearance import engines
-from holdfast.clearance.bodies import of_capsule, of_solid
 from holdfast.clearance.capsules import Capsule
 from holdfast.clearance.cover import shape_of
+from holdfast.clearance.exact import engines
+from holdfast.clearance.exact.bodies import of_capsule, of_solid
 
 pytest.importorskip("fcl")
 CONTACT = 1e-5  # m: nearer than this the libraries may differ
@@ -149,7 +149,7 @@ def test_a_cloud_is_the_nearest_of_its_balls(panda, meshes, rng):
 
 def test_spheres_within_a_body_are_within_it(panda):
     _, capsules = panda
-    from holdfast.clearance.contacts import parts_of
+    from holdfast.clearance.exact.meetings import parts_of
 
     bodies = [part.body for part in parts_of(capsules)] + [of_capsule(Capsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))]
     kinds = set()

@@ -63,6 +63,14 @@ def test_distances_are_those_of_the_spheres(rng, scene):
     np.testing.assert_allclose(clearance.room(q), (expected - clearance.margins).min(axis=1), atol=1e-12)
 
 
+def test_no_rows_have_no_distances(scene):
+    clearance = hf.Clearance(*scene)
+    nothing = np.zeros((0, clearance.arm.n))
+    assert clearance.by_pair(nothing).shape == (0, len(clearance.pair_names))
+    assert clearance.room(nothing).shape == (0,)
+    assert clearance.gradient(nothing).shape == (0, clearance.arm.n)
+
+
 def test_gradient_agrees_with_differences(rng, scene):
     arm, capsules, cell = scene
     clearance = hf.Clearance(arm, capsules, cell)

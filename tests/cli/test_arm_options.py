@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -86,6 +87,26 @@ def test_refusals_say_what_there_is(cli, arguments, sentence):
     code, out, err = cli("describe", *arguments)
     assert (code, out) == (2, "")
     assert sentence in err
+
+
+def test_a_file_with_several_ends_is_refused_with_a_command_that_works(cli, tmp_path):
+    """The gripper's base, not the finger that a mimic makes doubtful nor the camera, though the finger is farther off."""
+    links = "".join(f'<link name="{x}"/>' for x in ("base", "arm", "camera", "gripper_base", "gripper_rod"))
+    moving = '<limit lower="-1" upper="1" velocity="1" effort="1"/>'
+    joints = (
+        f'<joint name="turn" type="revolute">{moving}<parent link="base"/><child link="arm"/></joint>'
+        '<joint name="eye" type="fixed"><parent link="arm"/><child link="camera"/></joint>'
+        '<joint name="hand" type="fixed"><parent link="arm"/><child link="gripper_base"/></joint>'
+        f'<joint name="gripper_rod" type="revolute">{moving}<parent link="gripper_base"/><child link="gripper_rod"/></joint>'
+    )
+    file = tmp_path / "my robot.urdf"
+    file.write_text(f'<robot name="r">{links}{joints}</robot>')
+    code, out, err = cli("describe", file, "--json")
+    assert (code, out) == (2, "")
+    command = err.split(", for example: holdfast ")[1]
+    assert shlex.split(command)[2:4] == ["--tip", "gripper_base"]
+    assert cli(*shlex.split(command))[0] == 0
+    assert "for example" not in cli("assess", file, file)[2]  # one tip would not do for two
 
 
 def test_each_of_several_arms_has_its_own_ends_and_name(ask, tmp_path):

@@ -126,3 +126,53 @@ def test_capsules_of_one_arm_are_not_those_of_another(refused, tmp_path):
 def test_failure_rates_are_of_one_arm(refused):
     sentence = refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--after-lock", "--failure-rate", "1=2")
     assert "--failure-rate is about the joints of one arm" in sentence
+
+
+BENCH = """
+name: bench
+margin: 0.01
+objects:
+  post: {sphere: 0.15, pose: {xyz: [0.4, 0.35, 0]}}
+  far: {box: [0.2, 0.2, 0.2], pose: {xyz: [-2, -2, 0]}}
+"""
+
+
+@pytest.fixture
+def bench(tmp_path):
+    file = tmp_path / "bench.yaml"
+    file.write_text(BENCH)
+    return file
+
+
+def test_assess_and_optimise_keep_clear_of_a_cell(cli, ask, close, bench):
+    common = ("assess", "planar-3r", "--region", close, "--poses", 100, "--after-lock", "--cell", bench, "--no-clearance")
+    data = ask(*common, "--radius", 0.02)["clearance"]
+    arm, cell = arms.load("planar-3r"), hf.Cell.load(bench)
+    slim = Clearance(arm, Capsules.along(arm, 0.02), cell, itself=False)
+    run = hf.assess(arm, hf.Region.load(close), task="planar", poses=100, after_lock=True, clearance=slim)
+    assert data["found_with"] == run.collisions.with_each == {"post": run.collisions.found, "far": 0}
+    assert data["reached_clear"]["value"] == run.reached_clear().value
+    assert data["best_barred_by"] is None
+    assert data["cell"]["sha256"] == cell.digest
+    text = " ".join(cli(*common, "--radius", 0.02)[1].split())
+    assert f"collides with the cell in at most {run.collisions.found / run.collisions.reached:.1%} of the" in text
+    assert "cell 'bench' with 2 objects" in text
+    slender = (*BEST, "--radius", 0.02)
+    free = ask(*slender)["poses"][0]
+    q = free["q"]["joint1"]
+    bench.write_text(BENCH.replace("[0.4, 0.35, 0]", f"[{np.cos(q)}, {np.sin(q)}, 0]"))  # where the elbow is then
+    row = ask(*slender, "--cell", bench, "--no-clearance")["poses"][0]
+    assert row["blocked_by"].endswith("& post")
+    assert row["clearance_m"] >= 0.01
+    assert free["blocked_by"] is None
+    assert row["value"] < free["value"]
+
+
+def test_a_cell_that_cannot_be_used_is_one_sentence(refused, bench, tmp_path):
+    assert "no link 'elbow'" in refused(*BEST, "--cell", _with(bench, "may_touch: [[post, elbow]]"))
+    assert "missing.yaml" in refused(*BEST, "--cell", tmp_path / "missing.yaml")
+
+
+def _with(file, line):
+    file.write_text(f"{BENCH}{line}\n")
+    return file

@@ -12,8 +12,11 @@ import pytest
 
 import holdfast as hf
 import oracles
+from holdfast.convergence import detours
+from holdfast.convergence.detours import healthy_cost
 from holdfast.present.convergence import law_comparison as compare_laws_report
 from holdfast.report import page
+from holdfast.simulation import Reason, batch
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -252,3 +255,29 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
     ]:
         with pytest.raises(hf.InputError, match=words):
             call()
+
+
+def test_a_motion_whose_steps_lead_nowhere_is_not_tried_again_for_each_piece(monkeypatch):
+    """Of 30 motions of a PA10's pose one took all 100,000 steps in each of 64 pieces: a quarter of an hour for nothing."""
+    arm = hf.arms.load("planar-3r")
+    law = hf.control.pseudoinverse(arm, "planar")
+    q0 = np.random.default_rng(5).uniform(-2, 2, (40, 3))
+    goals = arm.forward_kinematics(np.random.default_rng(6).uniform(-2, 2, (40, 3)))
+    whole = healthy_cost(law, q0, goals, False, 0.1)
+    monkeypatch.setattr(batch, "MOST_STEPS", 40)
+    asked = []
+
+    def told(law, q, *others, **options):
+        runs = hf.simulate(law, q, *others, **options)
+        asked.append((len(q), int((runs.reason == Reason.STEPS).sum())))
+        return runs
+
+    monkeypatch.setattr(detours, "simulate", told)
+    short = healthy_cost(law, q0, goals, False, 0.1)
+    rows, out_of_steps = np.array(asked).T
+    assert 0 < out_of_steps.sum() < len(q0)
+    np.testing.assert_array_equal(rows[1:], rows[:-1] - out_of_steps[:-1])
+    same = short.time == whole.time  # those that never ran out go on as they did
+    assert np.isnan(short.time[~same]).all()
+    assert same.sum() == len(q0) - out_of_steps.sum()
+    np.testing.assert_array_equal(short.deviation[same], whole.deviation[same])

@@ -31,7 +31,7 @@ def test_figure_8(three):
 
 
 def test_a_boundary_ends_where_the_arm_is_singular(three):
-    """Joint 1 locked and the others folded: the direction of the motion jumps there, and no step is small enough to follow it."""
+    """With joints 2 and 3 in line the direction of the motion jumps, and no step is small enough to follow it."""
     found = hf.basins(three, [1.5, 1.0], {0: 2.0}, starts=10)
     ends = [line[-1] for line in found.boundaries]
     assert ends

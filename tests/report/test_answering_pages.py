@@ -83,6 +83,18 @@ def test_a_threshold_has_the_answers_that_python_gives(report, found):
     assert shown == expected
 
 
+def test_no_option_of_a_command_is_broken_behind_its_hyphens(report):
+    """Each has its own line, or stays on one, however narrow the page is; the text is what it was."""
+    lines = report.evaluate("""() => {
+        document.body.style.width = "330px";
+        const found = [...document.querySelectorAll("pre .option")].map(x => [x.textContent, x.getClientRects().length]);
+        document.body.style.width = "";
+        return found;
+    }""")
+    assert {"--poses", "--seed", "--optimise"} <= {name for name, _ in lines}
+    assert {count for _, count in lines} == {1}
+
+
 def test_a_threshold_names_the_worst_joints_and_moves_its_line(report, found):
     failed = found.dataset["by_failure"].values
     failed = failed[np.isfinite(failed).all(axis=1)]

@@ -7,11 +7,12 @@ import pytest
 from wellformed import check
 
 DOCS = Path(__file__).parents[2] / "docs"
-SCRIPTS = sorted((DOCS / "dossiers").glob("*.py"))
+SCRIPTS = sorted(set((DOCS / "dossiers").glob("*.py")) - {DOCS / "dossiers" / "owners_page.py"})
 
 
 @pytest.mark.parametrize("file", SCRIPTS, ids=lambda file: file.stem)
-def test_a_dossier_writes_a_page_with_the_answer(file, tmp_path):
+def test_a_dossier_writes_a_page_with_the_answer(file, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(DOCS / "dossiers")
     spec = importlib.util.spec_from_file_location(file.stem, file)
     dossier = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(dossier)

@@ -13,7 +13,7 @@ import dynamics
 import holdfast as hf
 import oracles
 from cards import check_card
-from holdfast.physics.model import mujoco_model
+from holdfast.physics.model import compiled, mujoco_spec
 
 G, LENGTH, MASS = 9.81, 0.7, 2.0
 
@@ -220,7 +220,8 @@ def test_the_model_with_all_joints_free_is_the_arm(rng):
     import mujoco
 
     arm, q = drawn(rng, types="RPRCRP")
-    model = mujoco_model(arm, np.zeros(arm.n), range(arm.n))
+    free = range(arm.n)
+    model = compiled(mujoco_spec(arm, np.zeros(arm.n), free), arm, free)
     data = mujoco.MjData(model)
     data.qpos[:] = q
     mujoco.mj_forward(model, data)

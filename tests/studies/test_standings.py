@@ -71,6 +71,13 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
     assert "clearly ahead" in text
 
 
+def test_nobody_is_ahead_of_an_arm_that_is_0_by_structure_unless_it_is_surely_above_0():
+    for kept, sentence in ((0, "perhaps 0 as well; never: 0 by structure"), (30, "clearly ahead; never: 0 by structure")):
+        found = [assessed("some", np.r_[np.zeros(100 - kept), np.ones(kept)]), assessed("never", np.zeros(100))]
+        (s,) = standings(found, [], {("manipulability", "pose"): 0.5})
+        assert sentence in render(Page("t", "h", [Section("s", _standings([replace(s, ended={"never": "joint 4"})]))]))
+
+
 def test_one_arm_alone_has_nobody_to_be_compared_with():
     assert _standings(standings(FAR[:1], [], {("manipulability", "pose"): 0.5})) == []
 

@@ -41,7 +41,14 @@ viser = pytest.importorskip("viser")
     ],
 )
 def test_who_is_welcome(host, origin, served, let_in):
-    assert welcome(host, origin, served) is let_in
+    assert welcome([] if host is None else [host], [] if origin is None else [origin], served) is let_in
+
+
+def test_a_header_that_is_there_twice_is_no_header():
+    host, origin = "127.0.0.1:8123", "http://127.0.0.1:8123"
+    assert welcome([host], [origin], "127.0.0.1")
+    assert not welcome([host, host], [origin], "127.0.0.1")
+    assert not welcome([host], [origin, origin], "127.0.0.1")
 
 
 def test_pages_of_others_are_refused_and_its_own_are_not():

@@ -163,8 +163,13 @@ def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, vi
     page.evaluate(DROP, ["<b>x</b>.urdf", "<robot name='x'><link name='a'/></robot>"])
     wait_for(page, lambda: "no moving joint" in said(page))
     assert "nothing has changed" in said(page)
+    # It stands out, and nothing beside it says that all went well.
+    page.locator(".hf-alert").filter(has_text="no moving joint").wait_for()
+    page.get_by_text("Received; whether it can be opened").first.wait_for()
+    assert page.get_by_text("successfully").count() == 0
     page.evaluate(DROP, ["notes.txt", "x"])
     wait_for(page, lambda: "cannot be opened here" in said(page))
+    page.locator(".hf-alert").filter(has_text="cannot be opened here").wait_for()
     page.evaluate(DROP, ["big.urdf", " " * (4 * 2**20 + 1)])
     page.get_by_role("alert").filter(has_text="too large").wait_for()
     assert window.state == before

@@ -80,7 +80,7 @@ def test_a_state_comes_back_from_its_command_line(opened, tmp_path, rng):
 
 def test_defaults_are_the_home_of_the_arm_and_this_machine(opened):
     output = run("holdfast studio pa10-9dof")
-    arm, state, host, port, task, cell = opened[0]
+    _, state, host, port, task, cell = opened[0]
     assert host == "127.0.0.1"
     assert port == 8123
     assert state.q == hf.arms.about("pa10-9dof").home

@@ -93,11 +93,13 @@ def load(
     mujoco = import_mujoco()
     try:
         model, label = _compiled(mujoco, path)
+        if not model.njnt:
+            raise ArmError("the model has no joint; an arm needs at least one")
         tree = _tree(mujoco, model, label, tip)
         arm = _arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
         return replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}") from error
+        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
 
 def compiled_tree(path: Path) -> tuple[Any, Tree]:
@@ -130,8 +132,6 @@ def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
     except ValueError as error:
         reason = " ".join(str(error).split())
         raise ArmError(f"MuJoCo cannot read this ({reason}); give a valid MJCF file, with the files that it names") from error
-    if not model.njnt:
-        raise ArmError("the model has no joint; an arm needs at least one")
     named = spec.modelname
     return model, named if named and named != UNNAMED_MODEL else path.stem
 

@@ -20,6 +20,7 @@ MOVING = get_args(JointType)
 LIMITED = ("revolute", "prismatic")
 FINGER = re.compile("finger|thumb|knuckle|jaw|claw", re.IGNORECASE)
 GRIPPER = re.compile("grip", re.IGNORECASE)
+TOOL = re.compile("tool|tcp|flange|grip|grasp|effector", re.IGNORECASE)
 ASK = "name one with --tip (tip= in Python)"
 MOST_CANDIDATES = 60  # in a sentence
 
@@ -141,7 +142,7 @@ def only_tip(tree: Tree, base: str) -> str:
     if len(candidates) == 1:
         return candidates[0]
     if candidates:
-        raise ArmError(f"the arm could end at {listed(candidates)}; {ASK}")
+        raise ArmError(f"the arm could end at {listed(candidates)}; {ASK}", tip=likely_tip(tree, base, candidates))
     moving = [joint.child for joint in _hanging(tree, base) if joint.moving]
     if moving:
         raise ArmError(f"only the fingers of a gripper move on '{base}' ({listed(moving)}); {ASK}")
@@ -172,6 +173,16 @@ def possible_tips(tree: Tree, base: str) -> list[str]:
         if moved[link] and (not kept or doubtful):
             found[link] = moved[link]
     return sorted(found, key=lambda link: -found[link])
+
+
+def likely_tip(tree: Tree, base: str, candidates: Sequence[str]) -> str:
+    """The candidate that looks most like a tool: by its name, then with the fewest fingers on its way, then the farthest."""
+
+    def rank(link: str) -> tuple[bool, int]:
+        moving = [joint for joint in tree.path(base, link) if joint.moving]
+        return not TOOL.search(link), sum(_is_finger(j) or _may_be_finger(tree, j) for j in moving)
+
+    return min(candidates, key=rank)
 
 
 def _is_finger(joint: TreeJoint) -> bool:

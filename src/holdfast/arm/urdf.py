@@ -85,7 +85,7 @@ def load(
         arm = replace(arm, chain=arm.chain and replace(arm.chain, file=whole, meshes=folder, srdf=pairs))
         return arm if file is None else replace(arm, states=_states(file, arm))
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}") from error
+        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
 
 # ---- the file ----------------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.assessment.answer import ZERO, Answer
 from holdfast.assessment.plan import Plan, Rows
-from holdfast.assessment.rows import SelfCollisions, provenance
+from holdfast.assessment.rows import Collisions, provenance
 from holdfast.assessment.upgrade import Sample, Upgrade, if_never_fails, sample, upgrades
 from holdfast.engine.store import Store
 from holdfast.errors import InputError
@@ -45,7 +45,8 @@ class Assessment(Result):
         optimised_worst_counts: As ``worst_counts``, at the best configurations.
         survivors: (n,) poses that can still be reached once the joint has locked, or their weights; 0 for joints that were
             not asked for, None if none was.
-        collisions: Configurations that bring the arm into collision with itself, or None if its clearance was not looked at.
+        collisions: Configurations that bring the arm into collision with itself or its cell, or None if that was not looked at.
+        clear: Poses of which a configuration clear of itself and the cell was found, or their weights; None without a cell.
         store: The results folder, if one was written.
         seconds: Time it took, or None if that is not known.
         complete: False if the run was stopped before all poses were done.
@@ -57,7 +58,8 @@ class Assessment(Result):
     optimised: Distribution | None
     optimised_worst_counts: NDArray[Any] | None
     survivors: NDArray[Any] | None
-    collisions: SelfCollisions | None
+    collisions: Collisions | None
+    clear: float | None
     store: Store | None
     seconds: float | None
     complete: bool
@@ -146,7 +148,8 @@ class Assessment(Result):
 
         The joint is locked at the angle that ``locked`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
-        lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
+        lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds. With a cell
+        only configurations count that are clear of it and of the arm itself, locked or not; see :meth:`reached_clear`.
 
         Args:
             joint: Name or index from 0; every joint that the run asked for if not given.
@@ -165,11 +168,29 @@ class Assessment(Result):
                 raise InputError(
                     f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with it in locked"
                 )
+        return {names[k]: self._share(float(self.survivors[k]), confidence) for k in chosen}
+
+    def _share(self, hits: float, confidence: float) -> Interval:
+        """Of all poses, by weight if they have one."""
         d = self.distribution
         if d.weighted:
-            total, n = d.total_weight(), d.effective()
-            return {names[k]: Interval.of_share(min(float(self.survivors[k]) / total, 1.0), n, confidence) for k in chosen}
-        return {names[k]: Interval.of(int(self.survivors[k]), d.samples, confidence) for k in chosen}
+            return Interval.of_share(min(hits / d.total_weight(), 1.0), d.effective(), confidence)
+        return Interval.of(int(hits), d.samples, confidence)
+
+    @checked
+    def reached_clear(self, confidence: float = 0.95) -> Interval:
+        """Share of all poses that the healthy arm reaches clear of itself and its cell, with its exact interval.
+
+        A pose of which no such configuration was found in a limited number of starts counts as lost, and the spheres that
+        cover the arm reach a little beyond it, so the share is a lower bound.
+
+        Raises:
+            InputError: The run had no cell, or was over a region of joints.
+        """
+        check_confidence(confidence)
+        if self.clear is None:
+            raise InputError("this run had no cell around the arm; assess again with cell=")
+        return self._share(self.clear, confidence)
 
     @property
     def locks(self) -> dict[str, float | None]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from holdfast.assessment.plan import LOCK_RESTARTS, Plan, Rows
 from holdfast.indices.index import Evaluation, WorstCase
-from holdfast.solvers.inverse_kinematics import solver
+from holdfast.solvers.inverse_kinematics import Accept, solver
 from holdfast.solvers.optimum import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
 
@@ -24,7 +24,7 @@ def compile_for(plan: Plan) -> None:
     if plan.optimise:
         _ascent(plan)
     if plan.clearance is not None:
-        plan.clearance(np.zeros((1, plan.arm.n)))
+        _apart(plan, np.zeros((1, plan.arm.n)))
 
 
 def _ascent(plan: Plan) -> Ascent:
@@ -46,7 +46,7 @@ def evaluate(plan: Plan, samples: Array, number: int) -> Rows:
             "worst": _worst(result),
         }
         if plan.clearance is not None:
-            direct["clearance"] = plan.clearance(samples)
+            direct |= _apart(plan, samples)[0]
         return direct
     poses = plan.region.poses(samples)
     engine = solver(plan.arm, plan.index.task)
@@ -83,13 +83,64 @@ def evaluate(plan: Plan, samples: Array, number: int) -> Rows:
         }
         if plan.clearance is not None:
             rows |= {"optimised_status": best.status, "blocked": best.blocked.astype(np.int8)}
+        if plan.cell is not None:
+            rows["blocked_by"] = _other(plan, best.blocked_by)
     if plan.clearance is not None:
-        rows["clearance"] = plan.clearance(rows["q"])
+        apart, enough = _apart(plan, rows["q"])
+        rows |= apart
+    q, usable = reach.q, reach.success
+    if plan.cell is not None:
+        q, usable = _clear(plan, poses, q, enough, reach.success, number)
+        rows["clear"] = np.where(reach.success, usable, -1).astype(np.int8)
     if plan.weighted:
         rows["weight"] = plan.region.weights(samples)
     if plan.locks:
-        rows["survives"], rows["lock_angle"] = _survival(plan, poses, reach.q, reach.success, number)
+        rows["survives"], rows["lock_angle"] = _survival(plan, poses, q, usable, number)
     return rows
+
+
+def _apart(plan: Plan, q: Array) -> tuple[Rows, NDArray[np.bool_]]:
+    """How far the arm is from itself and its cell at q (N, n), and whether that is enough (N,)."""
+    clearance = plan.clearance
+    assert clearance is not None
+    own = clearance.alone(q)
+    around = clearance.obstacles
+    if around is None:
+        return {"clearance": own}, np.asarray(own >= plan.margin)
+    apart = around.distances(q)
+    objects = apart.reshape(len(q), -1, len(around.cell)).min(axis=1)
+    each = np.column_stack([own, objects]) if clearance.pairs else objects
+    enough = (own >= plan.margin) & ((apart - around.margins).min(axis=1) >= plan.margin)
+    return {"clearance": each.min(axis=1), "from_each": each}, enough
+
+
+def _other(plan: Plan, pair: NDArray[np.int64]) -> NDArray[np.int16]:
+    """Position in ``plan.others`` of what a pair of the clearance is with; -1 for none."""
+    assert plan.clearance is not None
+    assert plan.cell is not None
+    own = len(plan.clearance.pairs)
+    thing = np.where(pair < own, 0, (pair - own) % len(plan.cell) + bool(own))
+    return np.where(pair < 0, -1, thing).astype(np.int16)
+
+
+def _accept(plan: Plan) -> Accept | None:
+    """Which configurations count where the cell is kept clear of."""
+    clearance = plan.clearance
+    if clearance is None or plan.cell is None:
+        return None
+    return lambda q: np.asarray(clearance.room(q) >= plan.margin)
+
+
+def _clear(
+    plan: Plan, poses: Array, q: Array, enough: NDArray[np.bool_], reached: NDArray[np.bool_], number: int
+) -> tuple[Array, NDArray[np.bool_]]:
+    """The configurations q (N, n) of the poses that are reached, and others of those where q is not clear enough."""
+    engine, some = solver(plan.arm, plan.index.task), np.flatnonzero(reached & ~enough)
+    seed = np.random.SeedSequence(plan.seed, spawn_key=(4, number))
+    found = engine.solve(poses[some], seed, LOCK_RESTARTS, engine.within(TOLERANCE), accept=_accept(plan))
+    q, clear = q.copy(), reached & enough
+    q[some], clear[some] = found.q, found.success
+    return q, clear
 
 
 def worst_cases(plan: Plan, configurations: Array) -> Rows:
@@ -118,7 +169,7 @@ def _survival(plan: Plan, poses: Array, q: Array, reached: NDArray[np.bool_], nu
     locked = np.tile(asked, rows.size)
     engine = solver(plan.arm, plan.index.task)
     found = engine.reaches_locked(
-        poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE
+        poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE, _accept(plan)
     )
     result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
     where[np.ix_(rows, asked)] = angles[:, asked]

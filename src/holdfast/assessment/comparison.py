@@ -175,6 +175,8 @@ class Comparison(Result):
         chosen = [a.plan for a in runs if a.optimised is not None]
         if len({(p.clearance is None, p.margin) for p in chosen}) > 1:
             found.append("The best configurations are not equally clear of the arm itself: the clearances asked for differ.")
+        if len({None if a.plan.cell is None else a.plan.cell.digest for a in runs}) > 1:
+            found.append("The candidates do not stand in the same cell.")
         return found
 
     def describe(self) -> list[str]:

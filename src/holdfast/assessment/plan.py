@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.arms.serial import from_dict, to_dict
+from holdfast.cell.cell import Cell
 from holdfast.clearance.capsules import Capsules
+from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
@@ -54,8 +56,9 @@ class Plan:
         restarts: Random starts per pose before it counts as not found.
         optimise: Also look for the best configuration of each pose.
         after_lock: Also ask for each pose and joint whether the pose can still be reached once the joint has locked.
-        clearance: Of the arm from itself: looked at in every configuration, and kept by the best ones; None: not looked at.
-        margin: Smallest clearance of the best configurations, m.
+        clearance: Of the arm from itself and its cell: looked at in every configuration, and kept by the best ones; None: not
+            looked at.
+        margin: Smallest clearance of the best configurations, m; from an object beyond what the cell keeps from it.
         lock_at: Joints, indices from 0, that lock at a given angle (rad or m) instead of one in use. They are asked for with
             or without ``after_lock``.
     """
@@ -107,6 +110,18 @@ class Plan:
         return {k: given.get(k) for k in range(self.arm.n) if self.after_lock or k in given}
 
     @property
+    def cell(self) -> Cell | None:
+        """The objects around the arm."""
+        return None if self.clearance is None else self.clearance.cell
+
+    @property
+    def others(self) -> list[str]:
+        """What the arm may collide with where there is a cell: itself, if that is looked at, and each object."""
+        if self.clearance is None or self.cell is None:
+            return []
+        return ["itself"] * bool(self.clearance.pairs) + [solid.name for solid in self.cell]
+
+    @property
     def weighted(self) -> bool:
         """True if rows have weights."""
         return self.region.weighted(self.poses)
@@ -139,6 +154,10 @@ class Plan:
             data["lock_at"] = {"angles": angles, "restarts": LOCK_RESTARTS}
         if self.clearance is not None:
             data["clearance"] = {"capsules": self.clearance.capsules.to_dict(self.arm), "margin": self.margin}
+            if not self.clearance.itself:
+                data["clearance"]["itself"] = False
+        if self.cell is not None:
+            data["cell"] = {"name": self.cell.name, "sha256": self.cell.digest, "data": self.cell.to_dict()}
         return data
 
     @property
@@ -180,7 +199,7 @@ class Plan:
             "optimise" in data,
             "after_lock" in data,
             _lock_angles(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
-            None if apart is None else Clearance(arm, Capsules.from_dict(apart["capsules"], arm)),
+            None if apart is None else _stored_clearance(arm, apart, data.get("cell")),
             0.0 if apart is None else apart["margin"],
         )
 
@@ -264,6 +283,24 @@ class Plan:
                     about="1 if the best configuration without regard to itself runs the arm through itself",
                 ),
             ]
+        names = ", ".join(self.others)
+        around = [
+            Column(
+                "from_each",
+                "float64",
+                (("other", len(self.others)),),
+                units="m",
+                about=f"smallest distance of the arm from {names}; from objects a lower bound",
+            )
+        ]
+        if self.region.kind != "joints":
+            about = "1 if a configuration of the pose was found that is clear of all of these, 0 if not, -1 unknown"
+            around.append(Column("clear", "int8", (), units="1", about=about))
+        if self.optimise:
+            about = (
+                f"position in {names} of what is nearest at the best configuration without regard to it; -1 if that is clear"
+            )
+            around.append(Column("blocked_by", "int16", (), units="1", about=about))
         survives = _SURVIVES_AT if self.lock_at else _SURVIVES
         angle = Column(
             "lock_angle", "float64", (("lock", n),), units="rad or m", about="where each joint locked; NaN where none did"
@@ -284,6 +321,7 @@ class Plan:
             ),
             *(best if self.optimise else []),
             *(apart if self.clearance is not None else []),
+            *(around if self.cell is not None else []),
             *([Column("survives", "int8", (("lock", n),), units="1", about=survives), angle] if self.locks else []),
         ]
 
@@ -301,6 +339,7 @@ def make_plan(
     locked: Mapping[str | int, float] | None = None,
     clearance: Clearance | bool | None = None,
     margin: float = 0.0,
+    cell: CellLike | None = None,
 ) -> Plan:
     """What :func:`assess` would compute; raises what it would raise, before anything is computed."""
     if index.arm.fingerprint != arm.fingerprint:
@@ -317,15 +356,16 @@ def make_plan(
         optimise,
         after_lock,
         _lock_angles(arm, locked or {}),
-        _apart(arm, clearance, optimise),
+        chosen_clearance(arm, clearance, cell, looks=optimise),
         margin,
     )
 
 
-def _apart(arm: Arm, clearance: Clearance | bool | None, optimise: bool) -> Clearance | None:
-    if clearance is None:
-        return Clearance.by_default(arm) if optimise else None
-    return Clearance(arm) if clearance is True else clearance or None
+def _stored_clearance(arm: Arm, apart: dict[str, Any], around: dict[str, Any] | None) -> Clearance:
+    cell = None if around is None else Cell.from_dict(around["data"])
+    if cell is not None and around is not None and cell.digest != around["sha256"]:
+        raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file of its meshes or points changed")
+    return Clearance(arm, Capsules.from_dict(apart["capsules"], arm), cell, itself=apart.get("itself", True))
 
 
 def _lock_angles(arm: Arm, locked: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:

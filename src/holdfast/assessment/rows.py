@@ -99,7 +99,7 @@ def _lost(rows: Rows, locks: list[int]) -> str | None:
     if (status == Status.NOT_COMPUTED).any():
         return "status"
     reached = (status == Status.OK) | (status == Status.SINGULAR)
-    best = reached
+    best, usable = reached, rows["clear"] == 1 if "clear" in rows else reached
     if "optimised_status" in rows:
         if (rows["optimised_status"] == Status.NOT_COMPUTED).any():
             return "optimised_status"
@@ -110,16 +110,17 @@ def _lost(rows: Rows, locks: list[int]) -> str | None:
         if name in ("position", "quaternion", "weight"):
             there = values
         elif name == "lock_angle":  # joints not asked for have NaN everywhere
-            there = values[reached][:, locks]
+            there = values[usable][:, locks]
         else:
             there = values[best if name.startswith("optimised_") else reached]
         if values.dtype.kind == "f" and np.isnan(there).any():
             return name
     # Whole numbers are -1 where there is nothing; at an ordinary configuration, which the best one never undercuts, there is.
-    for name in ("worst", "optimised_worst", "survives"):
+    for name in ("worst", "optimised_worst", "survives", "clear"):
         if name in rows:
             values = rows[name][:, locks] if name == "survives" else rows[name]  # joints not asked for have -1 everywhere
-            if (values[(status == Status.OK) & (best if name == "optimised_worst" else reached)] < 0).any():
+            asked = {"optimised_worst": best, "survives": usable}.get(name, reached)
+            if (values[(status == Status.OK) & asked] < 0).any():
                 return name
     return None
 
@@ -146,8 +147,8 @@ class Count:
 
 
 @dataclass(frozen=True)
-class SelfCollisions:
-    """Configurations that bring the arm into collision with itself, counted without weights.
+class Collisions:
+    """Configurations that bring the arm into collision with itself or its cell, counted without weights.
 
     Attributes:
         found: Of those that inverse kinematics found.
@@ -155,6 +156,9 @@ class SelfCollisions:
         hopeless: Of these, poses for which every configuration found does: they count as not reached when optimised.
         reached: Poses with a configuration.
         margin: Smallest clearance asked of the best configurations, m.
+        with_each: With a cell, how many of those in ``found`` are with the arm itself and with each object; else empty.
+            Distances from objects are lower bounds, so these are at most so many.
+        blocked_by: With a cell, by what those in ``blocked`` are barred: what is nearest there; else empty.
     """
 
     found: int
@@ -162,6 +166,8 @@ class SelfCollisions:
     hopeless: int
     reached: int
     margin: float
+    with_each: dict[str, int]
+    blocked_by: dict[str, int]
 
 
 class Tally:
@@ -170,13 +176,17 @@ class Tally:
     Attributes:
         found: At the configurations that inverse kinematics found.
         optimised: At the best configurations, if the plan asks for them.
-        collisions: Of the arm with itself, if the plan has a clearance.
+        collisions: Of the arm with itself and its cell, if the plan has a clearance.
+        clear: Poses of which a configuration clear of itself and the cell was found, or their weights, if there is a cell.
         survivors: (n,) poses still reached once each joint has locked, or their weights, if the plan asks for them.
     """
 
     def __init__(self, plan: Plan) -> None:
         self._margin = plan.margin
         self._collisions = None if plan.clearance is None else np.zeros(4, dtype=np.int64)
+        self._others = plan.others
+        self._with_each, self._blocked_by = np.zeros((2, len(plan.others)), dtype=np.int64)
+        self.clear: float | None = None if plan.cell is None or plan.region.kind == "joints" else 0.0
         self.found = Count(plan, "index", "worst")
         self.optimised = Count(plan, "optimised_index", "optimised_worst") if plan.optimise else None
         self.survivors: NDArray[Any] | None = None
@@ -196,17 +206,26 @@ class Tally:
                 self._collisions[1:3] += [(rows["blocked"][reached] == 1).sum(), hopeless[reached].sum()]
         if self._collisions is not None:
             self._collisions[[0, 3]] += [(rows["clearance"][reached] < 0).sum(), reached.sum()]
+        if self._others:
+            self._with_each += (rows["from_each"][reached] < 0).sum(axis=0)
+        if "blocked_by" in rows:
+            barred = rows["blocked_by"][reached & (rows["blocked"] == 1)]
+            self._blocked_by += np.bincount(barred, minlength=len(self._others))
+        if self.clear is not None:
+            clear = rows["clear"] == 1
+            self.clear += float(rows["weight"] @ clear) if "weight" in rows else int(clear.sum())
         if self.survivors is not None:
             left = rows["survives"] == 1
             self.survivors += rows["weight"] @ left if "weight" in rows else left.sum(axis=0)
 
     @property
-    def collisions(self) -> SelfCollisions | None:
+    def collisions(self) -> Collisions | None:
         """What was counted of collisions, or None if the plan has no clearance."""
         if self._collisions is None:
             return None
         found, blocked, hopeless, reached = self._collisions.tolist()
-        return SelfCollisions(found, blocked, hopeless, reached, self._margin)
+        each = [dict(zip(self._others, n.tolist(), strict=True)) for n in (self._with_each, self._blocked_by)]
+        return Collisions(found, blocked, hopeless, reached, self._margin, *each)
 
 
 def provenance(seconds: float | None) -> dict[str, Any]:

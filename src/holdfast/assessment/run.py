@@ -15,6 +15,7 @@ from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.block import compile_for
 from holdfast.assessment.plan import Plan, Rows, make_plan
 from holdfast.assessment.rows import Progress, Tally, blocks, fill, provenance, stored
+from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Store
 from holdfast.errors import InputError, StoreError
@@ -44,6 +45,7 @@ def assess(
     after_lock: bool = False,
     locked: Mapping[str | int, float] | None = None,
     clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> Assessment:
     """The distribution of an index over a region.
@@ -71,10 +73,14 @@ def assess(
         clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
             of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may collide with itself.
             Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
-        margin: Smallest clearance of the best configurations, m.
+        cell: Objects around the arm, or their file. Configurations that touch them are counted, the best ones keep clear of
+            them, and so do those that reach a pose after a lock. The arm's own links are then looked at as well, but for an
+            arm that moves in a plane and with ``clearance=False``.
+        margin: Smallest clearance of the best configurations, m; from an object beyond what the cell keeps from it.
 
     Raises:
-        InputError: Options out of range, or an index of another arm or task, or a clearance of another arm.
+        InputError: Options out of range, or an index of another arm or task, or a clearance of another arm, or a cell that
+            cannot be read, does not fit the arm, or whose files changed while the run was under way.
         TaskError: The arm is not redundant for the task, or the index cannot be optimised.
         StoreError: The folder cannot be used; nothing committed is lost.
         KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call resumes.
@@ -91,7 +97,7 @@ def assess(
                 "leave task out"
             )
     region = default_region(arm) if region is None else region
-    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin)
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin, cell)
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else plan.create(Path(store))
@@ -118,6 +124,8 @@ def assess(
                 folder.note(**provenance(spent + time.monotonic() - begin))
         for rows in stored(folder, plan):
             take(rows)
+    if plan.cell is not None:
+        plan.cell.require_unchanged()
     merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
     return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
 
@@ -151,6 +159,7 @@ def _finished(
         optimised_worst_counts=None if best is None else best.worst,
         survivors=tally.survivors,
         collisions=tally.collisions,
+        clear=tally.clear,
         store=store,
         seconds=seconds,
         complete=complete,

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.arguments import checked, checked_class
+from holdfast.arms.catalogue import outermost
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh, Points, Source
 from holdfast.cell.solids import Solid
@@ -103,6 +104,8 @@ class Cell:
     def load(cls, path: str | Path) -> Cell:
         """The cell in a file: YAML, see :mod:`holdfast.cell.cell_file`; or a URDF or MJCF file, which its content tells.
 
+        Of a URDF or MJCF file with several ends, :meth:`from_urdf` and :meth:`from_mjcf` take the one that is the arm's.
+
         Raises:
             InputError: The file cannot be read, or an entry is wrong; the sentence says where.
             HoldfastError: It needs an extra that is not installed.
@@ -110,10 +113,74 @@ class Cell:
         from holdfast.cell import cell_file
 
         path = Path(path)
+        if path.suffix.lower() in _XML:
+            return cls.from_mjcf(path) if outermost(str(path)) == "mujoco" else cls.from_urdf(path)
         try:
             return cls.from_dict(cell_file.read(path), path.parent)
         except (InputError, ArmError) as error:
             raise cell_file.refused(path, error) from error
+
+    @classmethod
+    @checked
+    def from_urdf(
+        cls,
+        path: str | Path,
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        hold: Mapping[str, float] | None = None,
+        meshes: str | Path | None = None,
+    ) -> Cell:
+        """What a URDF file holds beside an arm: the ``<collision>`` of every link that does not move with it.
+
+        The links from ``base`` to the first joint that moves are the arm's. Poses are in the frame of ``base``, as those of the
+        arm that :meth:`holdfast.Arm.from_urdf` reads with the same arguments. A mesh that is not closed becomes its hull. What
+        the base touches it may touch: neither moves.
+
+        Args:
+            path: The file.
+            base: Link on which the arm is mounted; the root if not given.
+            tip: Link whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_urdf`; not needed if nothing moves.
+            hold: Value, rad or m, at which joints are held that are not the arm's.
+            meshes: Folder with the files of meshes, if they are not where the file says.
+
+        Raises:
+            InputError: The file cannot be read, has no such links, or a shape that cannot be read.
+        """
+        from holdfast.cell import cell_file, surroundings
+
+        try:
+            folder = None if meshes is None else Path(meshes)
+            return cls(**surroundings.from_urdf(Path(path), base, tip, hold or {}, folder))
+        except (InputError, ArmError) as error:
+            raise cell_file.refused(Path(path), error) from error
+
+    @classmethod
+    @checked
+    def from_mjcf(
+        cls, path: str | Path, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None
+    ) -> Cell:
+        """What an MJCF file holds beside an arm: the colliding geoms of the world and of bodies that do not move with it.
+
+        The bodies from ``base`` to the first joint that moves are the arm's, but for the world. A mesh is its hull, as MuJoCo
+        has it. What the base touches it may touch: neither moves. Needs ``holdfast[physics]``.
+
+        Args:
+            path: The file.
+            base: Body on which the arm is mounted; ``world`` if not given.
+            tip: Body whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_mjcf`; not needed if nothing moves.
+            hold: Value, rad or m, at which joints are held that are not the arm's.
+
+        Raises:
+            InputError: MuJoCo cannot read the file, it has no such bodies, or a geom of which no distance is known.
+            HoldfastError: MuJoCo is not installed.
+        """
+        from holdfast.cell import cell_file, surroundings
+
+        try:
+            return cls(**surroundings.from_mjcf(Path(path), base, tip, hold or {}))
+        except (InputError, ArmError) as error:
+            raise cell_file.refused(Path(path), error) from error
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], folder: str | Path = ".") -> Cell:
@@ -231,6 +298,7 @@ class Cell:
                 )
 
 
+_XML = (".urdf", ".xml", ".mjcf")
 _KINDS = {"HalfSpace": "half space", "Points": "point cloud"} | {
     kind: kind.lower() for kind in ("Box", "Cylinder", "Capsule", "Sphere", "Mesh")
 }

@@ -186,7 +186,7 @@ def _close(grid: Grid, parts: Parts, band: float) -> Array:
         node = (i * ny + j) * nz + k
         at = grid.origin + grid.width * np.stack([i, j, k], axis=1)
         np.minimum.at(found, node, parts.squared(which, at))
-    return np.sqrt(found).reshape(grid.shape)
+    return np.asarray(np.sqrt(found).reshape(grid.shape))
 
 
 def _pairs(low: Indices, counts: Indices) -> Iterator[tuple[Indices, tuple[Indices, Indices, Indices]]]:

@@ -9,7 +9,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import checked_class, real_numbers
 from holdfast.arm.machine import transform
 from holdfast.errors import InputError
 
@@ -25,7 +25,7 @@ class Solid:
 
     Attributes:
         name: Unique in its cell.
-        pose: (4, 4) of its own frame in the world, m.
+        pose: (4, 4) of its own frame in the world, m; where it is not turned, its position (3,) will do.
         margin: What an arm keeps from it at least, m; the cell's own margin counts where that is larger.
     """
 
@@ -35,14 +35,14 @@ class Solid:
     margin: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "pose", transform(self.pose, f"pose of object '{self.name}'"))
+        object.__setattr__(self, "pose", _placed(self.pose, self.name))
         if not (np.isfinite(self.margin) and self.margin >= 0):
             raise InputError(f"the margin of object '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
 
     def moved_to(self, pose: ArrayLike) -> Self:
-        """The same object elsewhere; ``pose`` (4, 4) in the world, m. What was made of its shape is kept."""
+        """The same object elsewhere, what was made of its shape kept; ``pose`` (4, 4) in the world, m, or a position (3,)."""
         other = copy(self)
-        object.__setattr__(other, "pose", transform(pose, f"pose of object '{self.name}'"))
+        object.__setattr__(other, "pose", _placed(pose, self.name))
         return other
 
     def signed_distance(self, points: ArrayLike) -> Array:
@@ -172,3 +172,10 @@ class HalfSpace(Primitive):
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
         """See :meth:`Primitive.formula`."""
         return (_UNBOUNDED, _UNBOUNDED, 0.0), 0.0, False, True
+
+
+def _placed(pose: ArrayLike, name: str) -> Array:
+    a = real_numbers(pose, f"pose of object '{name}'", "a pose (4, 4) or a position (3,)")
+    if a.shape == (3,):
+        a = np.block([[np.eye(3), a[:, None]], [np.zeros(3), 1.0]])
+    return transform(a, f"pose of object '{name}'")

@@ -245,6 +245,21 @@ def assumed_radius(arm: Arm) -> float:
     return _SHARE * total
 
 
+@dataclass(frozen=True)
+class IgnoredPair:
+    """Two capsules that are not checked against each other.
+
+    Attributes:
+        pair: Positions in ``capsules.parts``.
+        name: As in ``pair_names``.
+        reason: Why, for people.
+    """
+
+    pair: tuple[int, int]
+    name: str
+    reason: str
+
+
 def link_name(arm: Arm, link: int) -> str:
     """``base``, or the name of the joint that moves the link."""
     return "base" if link == BASE else arm.joint_names[link]

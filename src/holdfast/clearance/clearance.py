@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from dataclasses import dataclass
 from itertools import combinations
 
 import casadi as ca
@@ -18,9 +17,9 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
-from holdfast.clearance.capsules import Capsules
+from holdfast.clearance.capsules import Capsules, IgnoredPair
 from holdfast.clearance.changes import changes_between
-from holdfast.clearance.exactness import Exactness
+from holdfast.clearance.exact.exactness import Exactness
 from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
@@ -35,21 +34,6 @@ Pair = tuple[int, int]
 
 _SAMPLES = 512  # configurations
 _ALWAYS = 0.95  # pairs that overlap in this share of them touch by construction
-
-
-@dataclass(frozen=True)
-class IgnoredPair:
-    """Two capsules that are not checked against each other.
-
-    Attributes:
-        pair: Positions in ``capsules.parts``.
-        name: As in ``pair_names``.
-        reason: Why, for people.
-    """
-
-    pair: Pair
-    name: str
-    reason: str
 
 
 class Clearance:
@@ -298,7 +282,8 @@ class Clearance:
 
     @cached_property
     def _exactness(self) -> Exactness:
-        return Exactness(self)
+        pairs, alone = [ignored.pair for ignored in self.ignored], self.alone
+        return Exactness(self.arm, self.capsules, (alone, alone.by_pair), self.pairs, pairs, self.obstacles)
 
     def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
         """Whether no checked link touches another or an object, (N,) or a scalar; exact, of the bodies that the capsules cover.
@@ -377,6 +362,11 @@ class Clearance:
         """What the arm is kept clear of: ``itself``, ``the cell``, or ``itself or the cell``."""
         named = (("itself", self.itself), ("the cell", self.obstacles is not None))
         return " or ".join(name for name, there in named if there) or "nothing"
+
+    @property
+    def everything(self) -> str:
+        """The same with ``and``."""
+        return self.others.replace(" or ", " and ")
 
     def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
         """The phrase for an arm whose room is below the margin.

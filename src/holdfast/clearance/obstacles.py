@@ -17,12 +17,12 @@ from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.cell.meshes import Gridded
 from holdfast.cell.solids import Primitive
-from holdfast.clearance.bodies import box_about
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.formulas import NOWHERE, FormulaObjects
+from holdfast.clearance.exact.bodies import box_about
 from holdfast.clearance.gridded import GriddedObjects
+from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -189,7 +189,7 @@ class Obstacles:
             out[:, :, self._plain] = self._formulas.distances(q)
         if self._gridded is not None:
             out[:, :, self._grids] = self._gridded.distances(q)
-        return out.reshape(len(q), -1)
+        return out.reshape(len(q), len(self.pairs))
 
     def gap(self, q: Array) -> Gap:
         """What is nearest at one configuration (n,), once every pair has what it must keep."""

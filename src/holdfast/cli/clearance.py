@@ -42,6 +42,10 @@ CellOption = Annotated[
     Path | None,
     typer.Option("--cell", help="Cell file (YAML): objects around the arm, which it is kept clear of.", show_default=False),
 ]
+TouchedCellOption = Annotated[
+    Path | None,
+    typer.Option("--cell", help="Cell file (YAML): objects around the arm; what it touches is said.", show_default=False),
+]
 
 
 def check_clearance(
@@ -105,3 +109,19 @@ def read_clearance(
             f"unless you ask for it; add --clearance or --capsules"
         )
     return found
+
+
+def read_contact_shape(arm: Arm, capsules: Path | None, radius: float | None, cell: Path | None) -> Clearance | None:
+    """What an arm may touch in a cell, where a command says what it does touch; None without a cell.
+
+    Raises:
+        InputError: A shape with nothing to touch, or a cell that cannot be read or does not fit the arm.
+        ArmError: A capsule file or radius that does not fit the arm.
+    """
+    check_clearance(None, capsules, radius, None, cell)
+    if cell is None:
+        for name, given in (("--capsules", capsules), ("--radius", radius)):
+            if given is not None:
+                raise InputError(f"{name} is the shape of the arm that may touch a cell, and there is none; add --cell")
+        return None
+    return read_clearance(arm, False, capsules, radius, None, chooses=False, cell=cell)

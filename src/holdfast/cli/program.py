@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from importlib import import_module
 from shutil import get_terminal_size
@@ -15,7 +16,7 @@ from typer.exceptions import TyperException
 from holdfast.cli.completion import asked
 from holdfast.cli.interrupt import STOPPED
 from holdfast.cli.layout import LaidOut, LaidOutGroup
-from holdfast.errors import HoldfastError
+from holdfast.errors import ArmError, HoldfastError
 
 PANELS = {  # of the help, in its order, by the folder
     "start": "Start here",
@@ -108,7 +109,7 @@ def main() -> None:
     try:
         code = assembled(asked(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
     except HoldfastError as error:
-        _fail(str(error))
+        _fail(f"{error}{_with_tip(error)}")
     except TyperException as error:  # an unknown command or option, a missing argument
         context = getattr(error, "ctx", None)
         hint = f" (see '{context.command_path} --help')" if context is not None else ""
@@ -132,6 +133,16 @@ def main() -> None:
 def _stopped() -> None:
     typer.echo("holdfast: stopped", err=True)
     sys.exit(STOPPED)
+
+
+def _with_tip(error: HoldfastError) -> str:
+    """The same command with a tip, where one is missing and the command names one file of an arm."""
+    words = sys.argv[1:]
+    files = [k for k, word in enumerate(words) if word.lower().endswith((".urdf", ".xml", ".mjcf"))]
+    if not isinstance(error, ArmError) or error.tip is None or len(files) != 1:
+        return ""
+    words[files[0] + 1 : files[0] + 1] = ["--tip", error.tip]
+    return f", for example: holdfast {shlex.join(words)}"
 
 
 def _fail(message: str) -> None:

@@ -15,6 +15,7 @@ from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
 from holdfast.simulation.closed_loop import CYCLE_LIMIT, simulate
+from holdfast.simulation.runs import Reason
 from holdfast.simulation.system import own_units, prescribed_way
 from holdfast.solvers.inverse_kinematics import task_error
 
@@ -48,12 +49,17 @@ def healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float
     """
     share = np.linspace(0, 1, SAMPLES + 1) ** 2
     until = np.unique(np.ceil(CYCLE_LIMIT / 4 * share)) if cycles else HORIZON / law.gain * share
-    q, now = q0, np.zeros(len(q0))
+    q, now, on = q0, np.zeros(len(q0)), np.arange(len(q0))
     configurations, times = [q0], [now]
     for step in np.diff(until):
-        runs = simulate(law, q, target, cycles=cycles, time_limit=float(step), radius=radius)
-        # A run that has ended in a singularity stays there: NaN would spoil what came before.
-        q, now = np.where(np.isfinite(runs.q_final), runs.q_final, q), now + np.nan_to_num(runs.time)
+        if on.size:
+            runs = simulate(law, q[on], target[on], cycles=cycles, time_limit=float(step), radius=radius)
+            q, now = q.copy(), now.copy()
+            # A run that has ended in a singularity stays there: NaN would spoil what came before.
+            q[on] = np.where(np.isfinite(runs.q_final), runs.q_final, q[on])
+            now[on] += np.nan_to_num(runs.time)
+            # So does one whose steps shrink to nothing: each of the pieces would take all the steps that there are.
+            on = on[~np.isin(runs.reason, (Reason.STEPS, Reason.HALF_TURN))]
         configurations.append(q)
         times.append(now)
     look = _Look(law)

@@ -17,7 +17,7 @@ from holdfast.errors import InputError
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.result import Result
 from holdfast.simulation.batch import ARRIVES
-from holdfast.simulation.runs import Outcome, Reason, Runs
+from holdfast.simulation.runs import UNDECIDED, Outcome, Runs
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -308,7 +308,7 @@ class LawComparison(Result):
     def reasons(self, law: str) -> dict[str, int]:
         """How many runs of a law, healthy and failed, are undecided for which reason."""
         reason = self.runs[self._law(law)].reason
-        return {r.name.lower(): int((reason == r).sum()) for r in Reason if r and (reason == r).any()}
+        return {r.name.lower(): int((reason == r).sum()) for r in UNDECIDED if (reason == r).any()}
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

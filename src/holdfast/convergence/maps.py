@@ -18,7 +18,7 @@ from holdfast.notice import says
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.result import Result
 from holdfast.simulation.closed_loop import simulate
-from holdfast.simulation.runs import Outcome, Reason
+from holdfast.simulation.runs import UNDECIDED, Outcome, Reason
 from holdfast.solvers.inverse_kinematics import solver
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ class ConvergenceMap(Result):
 
     def undecided(self) -> dict[str, int]:
         """How many runs are undecided, by the name of the :class:`holdfast.simulation.Reason` in small letters."""
-        return {r.name.lower(): int((self.reason == r).sum()) for r in Reason if r}
+        return {r.name.lower(): int((self.reason == r).sum()) for r in UNDECIDED}
 
 
 def shared(values: Array, each: int, confidence: float) -> Interval:

@@ -1,6 +1,6 @@
+from holdfast.physics.fall import BrakedDrop as BrakedDrop
+from holdfast.physics.fall import FreeSwing as FreeSwing
 from holdfast.physics.loop import simulate_physics as simulate_physics
 from holdfast.physics.run import PhysicalRun as PhysicalRun
 from holdfast.physics.servos import Servos as Servos
-from holdfast.physics.swing import BrakedDrop as BrakedDrop
-from holdfast.physics.swing import FreeSwing as FreeSwing
 from holdfast.physics.swing import free_swing as free_swing

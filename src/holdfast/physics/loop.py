@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.failures import Locked
@@ -21,6 +23,7 @@ from holdfast.notice import each, says
 from holdfast.physics.model import compiled, mujoco_spec
 from holdfast.physics.run import Ending, PhysicalRun, Why
 from holdfast.physics.servos import Servos, leads
+from holdfast.physics.surroundings import Touches, surround
 from holdfast.simulation.batch import ARRIVES, DECAYS
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Runs
@@ -48,6 +51,9 @@ def simulate_physics(
     servos: Servos | None = None,
     time_limit: float | None = None,
     time: ArrayLike = 0.0,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    stop_at_contact: bool = False,
 ) -> PhysicalRun:
     """One run of the closed loop on MuJoCo, beside the kinematic one (needs ``holdfast[physics]``).
 
@@ -55,14 +61,18 @@ def simulate_physics(
     control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor works),
     and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded where it is, whatever its motor does; one
     that locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm starts at
-    rest. Nothing is in the way, joint limits do not stop it, and there is no sensor noise, dry friction, backlash or
-    flexibility.
+    rest. Joint limits do not stop it, and there is no sensor noise, dry friction, backlash or flexibility.
+
+    The objects of a cell are in the way: the capsules of the arm's links, which weigh nothing, touch them and slide along them
+    (a coefficient of friction of 1), and the motors go on pushing. A mesh is its convex hull here. What touches what, when
+    first and how deep the contact gave way, is in ``contacts``; where nothing touches the motion is that without a cell.
 
     How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
     both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own
     length), *stuck* if not. *moving*, if at the time limit
     that command was never below 10 rad per time limit during the last 20 % of the time, and did not decay (as in the
-    kinematic loop, which has more time and so a lower threshold). Else *undecided*: slow; or singular, where the law has no
+    kinematic loop, which has more time and so a lower threshold). *stuck*, and the reason is *contact*, where an object
+    holds an arm that is still told to move. Else *undecided*: slow; or singular, where the law has no
     answer; or unstable, where the physics left all bounds, as servos that are too stiff for their rate may make it.
 
     Args:
@@ -73,12 +83,15 @@ def simulate_physics(
         servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
         time_limit: s; 200/Ke if not given.
         time: When the joints lock, s, each at the next control cycle: one time, or one for each of them.
+        clearance: The shape of the arm, with a cell or beside one.
+        cell: Objects around the arm, or their file.
+        stop_at_contact: Of the kinematic run, see :func:`holdfast.simulation.simulate`; the physical one meets the objects.
 
     Returns:
         A :class:`holdfast.PhysicalRun`, which holds the kinematic run and how far they are apart.
 
     Raises:
-        InputError: Wrong shapes, joints or options, or more than one run.
+        InputError: Wrong shapes, joints or options, more than one run, a start within an object, or a cloud of points.
         ArmError: Inertial data are missing or impossible, or a joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
@@ -87,12 +100,16 @@ def simulate_physics(
         raise InputError(f"time_limit is {limit:g}; it must be a finite number above 0")
     chosen, arm = Servos() if servos is None else servos, law.arm
     start = arm.check_configurations(q0).reshape(-1, arm.n)[0]
-    plant = _Plant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen)
+    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
+    around = None if looked is None or looked.cell is None else looked
+    plant = _Plant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen, around)
+    touches = Touches(around)
+    touches.require_clear(plant.model)
     stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start=start)
-    runs = simulate(law, q0, target, locked=locked, time=time)
+    runs = simulate(law, q0, target, locked=locked, time=time, clearance=looked, stop_at_contact=stop_at_contact)
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
-    notes, end = _drive(plant, law, runs, stiffness, damping, limit)
+    notes, end = _drive(plant, law, runs, stiffness, damping, limit, touches)
     outcome, reason = end or _verdict(notes.speed * limit)
     return PhysicalRun(
         law=law,
@@ -108,6 +125,7 @@ def simulate_physics(
         torque=notes.torque,
         x=arm.forward_kinematics(notes.q)[:, :3, 3],
         error=notes.error,
+        contacts=touches.contacts(),
     )
 
 
@@ -123,7 +141,7 @@ class _Notes:
 
 
 def _drive(
-    plant: _Plant, law: Law, runs: Runs, stiffness: Array, damping: Array, limit: float
+    plant: _Plant, law: Law, runs: Runs, stiffness: Array, damping: Array, limit: float, touches: Touches
 ) -> tuple[_Notes, tuple[Ending, Why] | None]:
     """The physical run beside a kinematic one, and how it ended if it did before the time limit."""
     n, period = law.arm.n, 1 / plant.servos.rate
@@ -152,14 +170,18 @@ def _drive(
         speed = float(np.sqrt(obeyed @ obeyed)) / out[n]
         plant.follow(reference + feed * rates)
         cycles.append(np.concatenate((q, reference, plant.torque, (speed, square))))
+        held = plant.data.ncon > 0
+        if held:
+            touches.note(plant.model, plant.data, (k + 1) * period)
         velocity = plant.data.qvel
         moving = float(velocity @ velocity)
         if not moving < BURST**2:
             end = ("undecided", "unstable")
             break
-        still = still + 1 if max(speed, np.sqrt(moving)) < REST * law.gain else 0
+        # An arm that lies against an object is told to move as long as it lies there.
+        still = still + 1 if max(0.0 if held else speed, np.sqrt(moving)) < REST * law.gain else 0
         if still > patience:
-            end = ("converged" if scaled < ARRIVES**2 else "stuck", "none")
+            end = ("converged", "none") if scaled < ARRIVES**2 else ("stuck", "contact" if held else "none")
             break
     table = np.array(cycles).reshape(-1, 3 * n + 2)
     q, references, torque = (table[:, i * n : (i + 1) * n].copy() for i in range(3))
@@ -169,11 +191,19 @@ def _drive(
 class _Plant:
     """The arm with the healthy joints driven and the others welded."""
 
-    def __init__(self, arm: Arm, q: Array, rates: Array, healthy: NDArray[np.bool_], servos: Servos) -> None:
+    def __init__(
+        self,
+        arm: Arm,
+        q: Array,
+        rates: Array,
+        healthy: NDArray[np.bool_],
+        servos: Servos,
+        around: Clearance | None = None,
+    ) -> None:
         self.mujoco = mujoco = import_mujoco()
-        self.arm, self.start, self.servos = arm, q, servos
+        self.arm, self.start, self.servos, self._around = arm, q, servos, around
         self.free = np.flatnonzero(healthy)
-        self.model = _model(mujoco, arm, q, self.free.tolist(), servos)
+        self.model = _model(mujoco, arm, q, self.free.tolist(), servos, around)
         self.data = mujoco.MjData(self.model)
         self.data.qvel[:] = rates[self.free]
 
@@ -210,14 +240,14 @@ class _Plant:
         momentum = np.zeros(self.free.size)
         self.mujoco.mj_forward(self.model, self.data)
         self.mujoco.mj_mulM(self.model, self.data, momentum, before)
-        after = _Plant(self.arm, self.q, np.zeros(self.arm.n), healthy, self.servos)
+        after = _Plant(self.arm, self.q, np.zeros(self.arm.n), healthy, self.servos, self._around)
         if left.any() and before.any():
             after.mujoco.mj_forward(after.model, after.data)
             after.mujoco.mj_solveM(after.model, after.data, after.data.qvel[None], momentum[left][None])
         return after
 
 
-def _model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos) -> Any:
+def _model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos, around: Clearance | None) -> Any:
     """The arm with a motor at each free joint; the motors' gains are still to come."""
     step = 1 / (servos.rate * servos.substeps)
     spec = mujoco_spec(arm, q, free, step=step)
@@ -230,6 +260,8 @@ def _model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos) -> 
             made.actfrclimited, made.actfrcrange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
         motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         motor.gaintype, motor.biastype = mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_AFFINE
+    if around is not None:
+        surround(spec, around, step)
     # Implicit in the motors' damping, which may be far stiffer than the light links behind it.
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET

@@ -22,11 +22,6 @@ LEAST_SHARE = 1e-9  # of the largest principal moment
 LEAST_MOMENT = 1e-12  # kg m^2
 
 
-def mujoco_model(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
-    """The arm as an ``mujoco.MjModel``; see :func:`mujoco_spec`, which has the same arguments and raises the same."""
-    return compiled(mujoco_spec(arm, q, free, stops, step), arm, free)
-
-
 def compiled(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
     """The model of a spec of :func:`mujoco_spec`, with the joints' friction."""
     model = spec.compile()
@@ -64,13 +59,13 @@ def mujoco_spec(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, st
     body, frame = spec.worldbody, arm.base
     for k, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
         pose = frame @ joint.origin @ joint.motion(float(q[k]))
-        body = body.add_body(pos=pose[:3, 3], quat=_quaternion(mujoco, pose[:3, :3]))
+        body = body.add_body(pos=pose[:3, 3], quat=quaternion(mujoco, pose[:3, :3]))
         held = [x for x in (link, arm.payload if k == arm.n - 1 else None) if x is not None]
         _fill(mujoco, body, Link.joined(held))
         if k in free:
             _add_joint(mujoco, body, joint, float(q[k]), stops, step)
         frame = np.eye(4)
-    body.add_site(name="tool", pos=arm.tool[:3, 3], quat=_quaternion(mujoco, arm.tool[:3, :3]))
+    body.add_site(name="tool", pos=arm.tool[:3, 3], quat=quaternion(mujoco, arm.tool[:3, :3]))
     return spec
 
 
@@ -86,7 +81,8 @@ def _require_mass(arm: Arm, free: Sequence[int]) -> None:
             )
 
 
-def _quaternion(mujoco: ModuleType, rotation: Array) -> Array:
+def quaternion(mujoco: ModuleType, rotation: Array) -> Array:
+    """(4,) w, x, y, z of a rotation (3, 3)."""
     wxyz = np.zeros(4)
     mujoco.mju_mat2Quat(wxyz, np.ascontiguousarray(rotation).ravel())
     return wxyz
@@ -101,7 +97,7 @@ def _fill(mujoco: ModuleType, body: Any, link: Link) -> None:
         moments[0] = max(moments[0], moments[2] - moments[1])  # the triangle inequality, exactly
     body.explicitinertial = True
     body.mass, body.ipos = link.mass, link.com
-    body.inertia, body.iquat = moments, _quaternion(mujoco, axes)
+    body.inertia, body.iquat = moments, quaternion(mujoco, axes)
 
 
 def _add_joint(mujoco: ModuleType, body: Any, joint: Joint, at: float, stops: bool, step: float) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
+from holdfast.clearance.contacts import Contact
 from holdfast.physics.servos import Servos
 from holdfast.result import Result
 from holdfast.simulation.runs import Path, Runs
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Ending = Literal["converged", "stuck", "moving", "undecided"]
-Why = Literal["none", "singular", "slow", "unstable"]
+Why = Literal["none", "singular", "slow", "unstable", "contact"]
 
 SAMPLES = 4000  # of the kinematic path, at equal times
 PIECES = 800  # of each path where their distance is measured, of equal length
@@ -35,13 +36,14 @@ class PhysicalRun(Result):
         stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for prismatic joints).
         kinematic: The same run of :func:`holdfast.simulation.simulate`.
         outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
-        reason: Why it is undecided: ``singular``, ``slow`` or ``unstable``; else ``none``.
+        reason: Why it is undecided: ``singular``, ``slow`` or ``unstable``; ``contact`` if an object holds it; else ``none``.
         time: (T,) s.
         q: (T, n) measured configuration, rad and m.
         reference: (T, n) what the servos are to follow, rad and m.
         torque: (T, n) of the motors of healthy joints, gravity compensation included, N m and N; 0 for a locked joint.
         x: (T, 3) tool point in the world, m.
         error: (T,) norm of the task's error, m and rad.
+        contacts: First of each link with each object of the cell, in order of time; None without a cell.
     """
 
     law: Law
@@ -57,6 +59,7 @@ class PhysicalRun(Result):
     torque: Array
     x: Array
     error: Array
+    contacts: tuple[Contact, ...] | None = None
 
     @property
     def agrees(self) -> bool:
@@ -111,6 +114,9 @@ class PhysicalRun(Result):
             f"{self.servos.describe()}, on MuJoCo: {self.outcome}{why}; kinematic: {self.kinematic.outcome}",
             f"tool paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
         ]
+        if self.contacts is not None:
+            first = self.contacts[0].sentence() if self.contacts else "the arm touches nothing"
+            lines.append(f"{first} (with masses and servos)")
         full = [name for name, share in zip(self.law.arm.joint_names, self.saturated, strict=True) if share > 0]
         if full:
             lines.append(f"motors at their effort for a while: {', '.join(full)}")

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,15 +12,15 @@ from holdfast.arguments import checked
 from holdfast.arm.machine import Joint
 from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.errors import ArmError, InputError
-from holdfast.files.output import write_table
 from holdfast.notice import each, says
-from holdfast.physics.model import mujoco_model
-from holdfast.result import Result
+from holdfast.physics.fall import BrakedDrop, FreeSwing, Outcome
+from holdfast.physics.model import compiled, mujoco_spec
+from holdfast.physics.surroundings import Touches, surround
 
 Array = NDArray[np.float64]
-Outcome = Literal["rest", "stop", "balanced", "moving"]
-
 BRAKES = (50.0, 100.0, 200.0)  # ms
 DAMPING_SHARE = 0.1  # of critical damping, where the arm states no friction to speak of
 LEAST_SHARE = 0.02  # of critical damping; files carry less as a placeholder, and the joint would swing for minutes
@@ -33,106 +31,6 @@ NEGLIGIBLE = 1e-9  # relative to mass, gravity and length of what swings
 CHECK_EVERY = 20  # steps
 SHORTEST, LONGEST = 60.0, 300.0  # s, of the time allowed when none is given
 LONGEST_STEP = 0.02  # s
-ENDS = {
-    "rest": "hangs still",
-    "stop": "lies against its stop",
-    "balanced": "does not move: gravity pulls it neither way here",
-    "moving": "was still moving at the end; give more --duration or --damping",
-}
-
-
-@dataclass(frozen=True, kw_only=True)
-class BrakedDrop:
-    """Where the tool is when the brakes act.
-
-    The brakes are taken to stop the joint at once, so the tool stays there; ``speed`` says how bold that is.
-
-    Attributes:
-        after_ms: Time from the failure to the brakes, ms.
-        angle: How far the joint has moved, rad or m.
-        speed: Speed of the joint at that moment, rad/s or m/s.
-        drop: How far the tool has moved down, along gravity, m; negative if it has risen.
-        distance: Distance between the tool's place then and at the failure, m.
-    """
-
-    after_ms: float
-    angle: float
-    speed: float
-    drop: float
-    distance: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class FreeSwing(Result):
-    """The motion of an arm at rest whose joint ``joint`` swings free from time 0, all others held.
-
-    Attributes:
-        arm: The arm.
-        q: (n,) configuration at the failure, rad or m.
-        joint: Index from 0 of the failed joint.
-        damping: Viscous friction used, N m s/rad or N s/m.
-        time: (T,) s.
-        angle: (T,) how far the joint has moved since the failure, rad or m; positive about or along its axis.
-        velocity: (T,) rad/s or m/s.
-        tool_position: (T, 3) tool point in the world, m.
-        rest_angle: Where it stops, counted from the failure, rad or m; NaN if it was still moving at the end.
-            Without stops this is the swing angle of English and Maciejewski (1998), eq. (38).
-        peak: Largest distance from where it failed, rad or m.
-        initial_acceleration: At the moment of failure, stops aside, rad/s^2 or m/s^2; the acceleration measure of English
-            and Maciejewski (1998), eq. (22), with the rotor inertia added.
-        outcome: ``rest`` (hangs still), ``stop`` (lies against a limit), ``balanced`` (gravity does not move it) or
-            ``moving`` (not at rest in the time given).
-        drops: One per brake time.
-    """
-
-    arm: Arm
-    q: Array
-    joint: int
-    damping: float
-    time: Array
-    angle: Array
-    velocity: Array
-    tool_position: Array
-    rest_angle: float
-    peak: float
-    initial_acceleration: float
-    outcome: Outcome
-    drops: tuple[BrakedDrop, ...]
-
-    @property
-    def settled(self) -> bool:
-        """False if the joint was still moving at the end."""
-        return self.outcome != "moving"
-
-    @property
-    def stopped(self) -> bool:
-        """True if the joint ended against one of its limits."""
-        return self.outcome == "stop"
-
-    def describe(self) -> list[str]:
-        """A few sentences for people."""
-        failed = self.arm.joints[self.joint]
-        factor, unit = failed.shown
-        lines = [f"Free swing of {failed.name}, arm {self.arm.title}, all other joints held", f"It {ENDS[self.outcome]}."]
-        if self.settled:
-            end, most = factor * self.rest_angle, factor * self.peak
-            lines.append(f"At the end it has moved {end:.4g} {unit}, on the way at most {most:.4g} {unit}.")
-        lines += [
-            f"{d.after_ms:g} ms after the failure it has moved {factor * d.angle:.4g} {unit} and moves at "
-            f"{factor * d.speed:.4g} {unit}/s; the tool has dropped {1000 * d.drop:.4g} mm."
-            for d in self.drops
-        ]
-        return lines
-
-    def to_csv(self, file: str | Path) -> Path:
-        """Write the motion as rows over time: how far the joint has moved, its speed, and the tool point, m.
-
-        Raises:
-            StoreError: It cannot be written.
-        """
-        unit = self.arm.joints[self.joint].unit
-        header = ["time_s", f"moved_{unit}", f"speed_{unit}_s", "tool_x_m", "tool_y_m", "tool_z_m"]
-        return write_table(file, "motion", header, np.column_stack([self.time, self.angle, self.velocity, self.tool_position]))
 
 
 @checked
@@ -148,13 +46,16 @@ def free_swing(
     brake_after: Sequence[float] = BRAKES,
     step: float = 1e-3,
     limits: bool = False,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
 ) -> FreeSwing:
     """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast[physics]``).
 
     The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
-    exactly. Nothing is in the way, and no limit unless ``limits``; a prismatic joint always falls to its limit. A stop takes
-    the impact without rebound. From exactly upright, rounding decides to which side it falls, so its rest angle may have either
-    sign.
+    exactly. Nothing is in the way but the objects of a cell, and no limit unless ``limits``; a prismatic joint always falls to
+    its limit. A stop takes the impact without rebound; an object does nearly, and the capsules of the links that swing slide
+    along it (a coefficient of friction of 1; a mesh is its convex hull here). From exactly upright, rounding decides to which
+    side it falls, so its rest angle may have either sign.
 
     Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
     small oscillation about its rest position (less is a placeholder in many files, and the joint would swing for minutes); else
@@ -172,9 +73,11 @@ def free_swing(
         brake_after: Times from the failure to the brakes, ms.
         step: Time step, s.
         limits: Whether the arm's limits stop the joint.
+        clearance: The shape of the arm, with a cell or beside one.
+        cell: Objects around the arm, or their file.
 
     Raises:
-        InputError: A wrong joint, configuration or option.
+        InputError: A wrong joint, configuration or option, a start within an object, or a cloud of points.
         ArmError: Inertial data are missing or impossible, nothing heavy hangs on the joint, or a prismatic joint has no limit
             on the side to which it falls.
         HoldfastError: MuJoCo is not installed.
@@ -189,8 +92,14 @@ def free_swing(
             f"q puts joint '{failed.name}' at {start[k]:g} {failed.unit}, outside its limits {failed.lower:g} to "
             f"{failed.upper:g}; start inside them"
         )
-    model = mujoco_model(arm, start, [k], stops, step)
-    swing = _Swing(model, arm, k)
+    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
+    around = None if looked is None or looked.cell is None else looked
+    spec = mujoco_spec(arm, start, [k], stops, step)
+    if around is not None:
+        surround(spec, around, step)
+    touches = Touches(around)
+    swing = _Swing(compiled(spec, arm, [k]), arm, k, touches)
+    touches.require_clear(swing.model)
     if failed.prismatic and not swing.flat:
         _require_stop(failed, swing.acceleration > 0)
     friction = swing.choose_damping(damping, failed)
@@ -211,6 +120,7 @@ def free_swing(
         initial_acceleration=swing.acceleration,
         outcome=outcome,
         drops=tuple(_drop(t, time, angle, velocity, tool, arm.gravity) for t in brakes),
+        contacts=touches.contacts(),
     )
 
 
@@ -261,15 +171,16 @@ def _require_stop(joint: Joint, upwards: bool) -> None:
 class _Swing:
     """A MuJoCo model with one joint, at the moment of failure, and what its torque there says about the motion."""
 
-    def __init__(self, model: Any, arm: Arm, k: int) -> None:
-        self.mujoco = import_mujoco()
+    def __init__(self, model: Any, arm: Arm, k: int, touches: Touches) -> None:
+        self.mujoco, self.touches = import_mujoco(), touches
         self.model, self.data = model, self.mujoco.MjData(model)
         self.prismatic = bool(arm.prismatic[k])
         label = f"arm '{arm.name}', joint '{arm.joint_names[k]}'"
         mass = float(model.body_subtreemass[k + 1])
         # What swings is no longer than this.
         length = float(
-            np.linalg.norm(model.body_pos[k + 2 :], axis=1).sum() + np.linalg.norm(model.body_ipos[k + 1 :], axis=1).sum()
+            np.linalg.norm(model.body_pos[k + 2 : arm.n + 1], axis=1).sum()
+            + np.linalg.norm(model.body_ipos[k + 1 : arm.n + 1], axis=1).sum()
         )
         here = self._torque(0.0)
         inertia = np.zeros(1)
@@ -336,6 +247,8 @@ class _Swing:
         last = int(np.ceil(max(duration, at_least) / step - 1e-9))
         for k in each("time steps", range(1, last + 1), most=True, every=CHECK_EVERY):
             mujoco.mj_step(model, data)
+            if data.ncon:
+                self.touches.note(model, data, k * step)
             mujoco.mj_kinematics(model, data)
             rows.append((data.qpos[0], data.qvel[0], *data.site_xpos[tool]))
             if k % CHECK_EVERY == 0 and k * step >= at_least and (outcome := self._outcome()) != "moving":
@@ -355,7 +268,7 @@ class _Swing:
         self.mujoco.mj_forward(self.model, data)
         held = data.nefc > 0 and abs(data.qacc[0]) < 1e-3 * abs(data.qacc_smooth[0])
         if held and abs(velocity) < STOPPED:
-            return "stop"
+            return "contact" if data.ncon else "stop"
         if self.prismatic:
             return "moving"
         off = angle - self.rest

@@ -23,6 +23,7 @@ from holdfast.report.page import Block, Code, Text
 
 _POSES_FILE = "poses.csv"
 _CAPSULES_FILE = "capsules.yaml"
+_CELL_FILE = "cell.yaml"
 _MOST_POSES = 50  # of a list in a report; a results folder holds any number
 
 
@@ -74,22 +75,35 @@ def _clearance_options(a: Assessment) -> list[str]:
     looks = a.plan.optimise and not planar  # unless told otherwise
     if clearance is None:
         return ["--no-clearance"] if looks else []
+    around = [] if clearance.cell is None else [f"--cell {_CELL_FILE}"]
+    assumed = clearance.capsules.assumed(arm)
+    if not clearance.itself and not (assumed and planar):
+        around.append("--no-clearance")
+    looks = looks or (clearance.cell is not None and clearance.itself != planar) or not clearance.itself
     radius = clearance.capsules.radius_along(arm)
-    if clearance.capsules.assumed(arm):
+    if assumed:
         words = [] if looks else ["--clearance"]
     else:
         words = [f"--capsules {_CAPSULES_FILE}"] if radius is None else [f"--radius {radius!r}"]
-    return [*words, *([f"--margin {a.plan.margin!r}"] if a.plan.margin and a.plan.optimise else [])]
+    kept = a.plan.optimise or clearance.cell is not None
+    return [*around, *words, *([f"--margin {a.plan.margin!r}"] if a.plan.margin and kept else [])]
 
 
 def capsule_files(a: Assessment) -> list[Block]:
-    """The capsule file that the command needs, if any, to copy."""
+    """The capsule file and the cell file that the command needs, if any, to copy."""
     clearance = a.plan.clearance
-    if clearance is None or clearance.capsules.radius_along(a.arm) is not None:
+    if clearance is None:
         return []
-    data = clearance.capsules.to_dict(a.arm)
-    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
-    return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(_CAPSULES_FILE))]
+    files = {}
+    if clearance.capsules.radius_along(a.arm) is None:
+        files[_CAPSULES_FILE] = clearance.capsules.to_dict(a.arm)
+    if clearance.cell is not None:
+        files[_CELL_FILE] = clearance.cell.to_dict()
+    made = [
+        (name, yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100))
+        for name, data in files.items()
+    ]
+    return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(name)) for name, text in made]
 
 
 def task_option(arm: Arm, task: Task) -> str | None:

@@ -41,15 +41,20 @@ class Story:
     arm: Arm | None = None
 
 
-def how(arm: Arm | None, *rows: tuple[Any, Any]) -> list[Any]:
+def how(arm: Arm | None, *rows: tuple[Any, Any], called: str = "arm") -> list[Any]:
     """How it was computed: what is given, and what is said of every result, as blocks of a page."""
     from markupsafe import Markup
 
     from holdfast.provenance import versions
     from holdfast.report.page import Table
 
-    found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
     told = list(rows)
     if arm is not None:
-        told += [("Arm", arm.provenance), ("Fingerprint of the arm", Markup("<code>{}</code>").format(arm.fingerprint))]
-    return [Table([*told, ("Versions", ", ".join(f"{k} {v}" for k, v in found.items()))])]
+        code = Markup("<code>{}</code>").format(arm.fingerprint)
+        told += [(f"{called[0].upper()}{called[1:]}", arm.provenance), (f"Fingerprint of the {called}", code)]
+    return [Table([*told, ("Versions", named(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
+
+
+def named(versions: Mapping[str, Any]) -> str:
+    """Versions of packages in a line."""
+    return ", ".join(f"{name} {version}" for name, version in versions.items())

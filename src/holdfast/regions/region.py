@@ -439,7 +439,7 @@ class Region(Shown):
             return f"poses drawn by a function of your own{', with weights' if self.draw[1] else ''}"
         own = "; weighted by a function of your own" if self.weight is not None else ""
         weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else own
-        c, s = np.round(self.center, 12), np.round(self.size, 12)
+        c, s = np.round(self.center, 12) + 0.0, np.round(self.size, 12)
         return (
             f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
             "roll, pitch, yaw in "

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import mjcf
 from holdfast.arm.model import Arm
-from holdfast.shapes.pieces import Carriers, Kind, Missing, Piece, Purpose
+from holdfast.shapes.pieces import Carriers, Kind, Missing, Piece, Place, Purpose
 
 Array = NDArray[np.float64]
 
@@ -21,9 +22,13 @@ def read(file: Path, arm: Arm, purpose: Purpose, hold: Mapping[str, float] | Non
     What collides are the geoms with a ``contype`` or ``conaffinity``, but for those of the world, which are around the arm;
     what is drawn are the others, or all where there are no others on a body.
     """
-    mujoco = mjcf.import_mujoco()
     model, tree = mjcf.compiled_tree(file)
-    carriers = Carriers(tree, arm, hold)
+    return collected(model, purpose, Carriers(tree, arm, hold).place)
+
+
+def collected(model: Any, purpose: Purpose, place_of: Place, world: bool = False) -> tuple[list[Piece], list[Missing]]:
+    """The shapes of the bodies that have a place, those of the world only if they are wanted; and what could not be read."""
+    mujoco = mjcf.import_mujoco()
     kinds: dict[int, Kind] = {
         int(mujoco.mjtGeom.mjGEOM_BOX): "box",
         int(mujoco.mjtGeom.mjGEOM_CYLINDER): "cylinder",
@@ -31,6 +36,7 @@ def read(file: Path, arm: Arm, purpose: Purpose, hold: Mapping[str, float] | Non
         int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere",
         int(mujoco.mjtGeom.mjGEOM_ELLIPSOID): "ellipsoid",
         int(mujoco.mjtGeom.mjGEOM_MESH): "mesh",
+        **({int(mujoco.mjtGeom.mjGEOM_PLANE): "half space"} if world else {}),
     }
     collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     pieces: list[Piece] = []
@@ -38,8 +44,8 @@ def read(file: Path, arm: Arm, purpose: Purpose, hold: Mapping[str, float] | Non
     for g in range(model.ngeom):
         body = int(model.geom_bodyid[g])
         only_colliding = bool(collides[model.geom_bodyid == body].all())
-        wanted = collides[g] and body > 0 if purpose == "collision" else not collides[g] or only_colliding
-        place = carriers.place(mjcf.body_name(model, body)) if wanted else None
+        wanted = collides[g] and (world or body > 0) if purpose == "collision" else not collides[g] or only_colliding
+        place = place_of(mjcf.body_name(model, body)) if wanted else None
         if place is None:
             continue
         kind = kinds.get(int(model.geom_type[g]))
@@ -89,4 +95,5 @@ def _size(kind: Kind, size: Array) -> tuple[float, ...]:
         "sphere": (x,),
         "ellipsoid": (x, y, z),
         "mesh": (),
+        "half space": (),
     }[kind]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -14,8 +14,9 @@ from holdfast.arm.tree import Held, Tree
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
-Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh"]
+Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "half space"]
 Purpose = Literal["visual", "collision"]
+Place = Callable[[str], tuple[int, Array] | None]  # of a link: what moves it, -1 for nothing, and its pose (4, 4) there
 
 _SAME = 1e-9  # m and rad: two readings of one file
 
@@ -30,7 +31,8 @@ class Piece:
         kind: What it is.
         name: What to call it: the name of its mesh in the file, or its kind.
         size: m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, that of a capsule between the
-            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh: nothing.
+            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh, or a half
+            space below its z: nothing.
         pose: (4, 4) in the frame that moves with the joint; for the base, in the base frame.
         vertices: (V, 3) m, of a mesh in its own frame, scaled; (0, 3) otherwise.
         faces: (F, 3) indices.

@@ -15,7 +15,7 @@ from holdfast.arm.urdf import read_origin, read_tree, robot_element
 from holdfast.errors import ArmError, HoldfastError
 from holdfast.files import mesh
 from holdfast.shapes.meshes import find_mesh
-from holdfast.shapes.pieces import Carriers, Kind, Missing, Piece, Purpose
+from holdfast.shapes.pieces import Carriers, Kind, Missing, Piece, Place, Purpose
 
 Array = NDArray[np.float64]
 
@@ -27,13 +27,19 @@ def read(
 ) -> tuple[list[Piece], list[Missing]]:
     """See :func:`holdfast.shapes.reading.read_pieces`; ``folder`` has the meshes."""
     robot = robot_element(file)
-    carriers = Carriers(read_tree(robot, file.stem), arm, hold)
+    return collected(robot, file, purpose, Carriers(read_tree(robot, file.stem), arm, hold).place, folder, open_files)
+
+
+def collected(
+    robot: ElementTree.Element, file: Path, purpose: Purpose, place_of: Place, folder: Path | None, open_files: bool = True
+) -> tuple[list[Piece], list[Missing]]:
+    """The shapes of the links that have a place, and what of them could not be read."""
     materials = {m.get("name", ""): color for m in robot.findall("material") if (color := _rgba(m)) is not None}
     pieces: list[Piece] = []
     missing: list[Missing] = []
     for element in robot.findall("link"):
         owner = element.get("name", "")
-        place = carriers.place(owner)
+        place = place_of(owner)
         if place is None:
             continue
         for shown in element.findall(purpose):

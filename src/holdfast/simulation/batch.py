@@ -100,7 +100,7 @@ class Motion:
                 return self._block(q0[some], target[some], lock_time[some], setting, over)
 
             done = [work(b) for b in blocks] if workers == 1 or len(blocks) == 1 else list(pool().map(work, blocks))
-        ends = done[0] if len(done) == 1 else {name: np.concatenate([d[name] for d in done]) for name in done[0]}
+        ends: dict[str, Any] = {name: np.concatenate([d[name] for d in done]) for name in done[0]} if done[1:] else done[0]
         return Runs(
             law=self.law,
             q0=q0,
@@ -318,6 +318,15 @@ class Motion:
             if not (np.isfinite(until) and until > 0):
                 raise InputError(f"until is {until:g}; it must be a finite number above 0")
             end = min(end, float(until))
+        _, at = self.recorded(runs, k, end)
+        time = np.linspace(0.0, end, samples)
+        q, pose = at(time), self._poses(runs)[k]
+        error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
+        locked = time[:, None] >= np.atleast_2d(runs.lock_time)[k]
+        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error=error, locked=locked)
+
+    def recorded(self, runs: Runs, k: int, end: float) -> tuple[Array, Callable[[Array], Array]]:
+        """Run k again up to a time, s or cycles: when its steps began (S,), and the motion (T, n) at any times (T,)."""
         noted: list[tuple[Array, Array]] = []
 
         def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
@@ -330,23 +339,22 @@ class Motion:
                 parts = self._steps.state.values(states)
             return states, np.array([parts["code"][0, 0] != RUNNING])
 
-        lock_time = np.atleast_2d(runs.lock_time)[k : k + 1]
-        pose = self._poses(runs)[k]
-        numbers = self._system.numbers(pose[None])
-        self._phases(np.atleast_2d(runs.q0)[k : k + 1], numbers, lock_time, runs._setting, advance)
+        numbers = self._system.numbers(self._poses(runs)[k][None])
+        self._phases(np.atleast_2d(runs.q0)[k : k + 1], numbers, runs.held_from[k : k + 1], runs._setting, advance)
         states, parameters = (np.array(rows) for rows in zip(*noted, strict=True))
-        parts, time = self._steps.state.values(states), np.linspace(0.0, end, samples)
+        parts = self._steps.state.values(states)
         if self.cycles:
             when = parts["time"][:, 0] + parts["substep"][:, 0] / SUBSTEPS
-            q = np.stack([np.interp(time, when, column) for column in parts["q"].T], axis=1)
-        else:
+            return when, lambda time: np.stack([np.interp(time, when, column) for column in parts["q"].T], axis=1)
+
+        def at(time: Array) -> Array:
             # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
             here = np.searchsorted(parts["time"][:, 0], time * self._unit, side="right") - 1
             given = parameters[here]
             given[:, -3], given[:, -1] = time * self._unit, 1.0
-            q = self._steps.state.values(self._stepped(states[here], given))["q"]
-        error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
-        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error=error, locked=time[:, None] >= lock_time)
+            return self._steps.state.values(self._stepped(states[here], given))["q"]
+
+        return parts["time"][:, 0] / self._unit, at
 
     def _stepped(self, states: Array, parameters: Array) -> Array:
         """States after one step."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, field
 from enum import IntEnum
 from pathlib import Path as File
@@ -14,8 +16,11 @@ from holdfast.arguments import checked
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.result import Result
+from holdfast.words import capitalised
 
 if TYPE_CHECKING:
+    from holdfast.clearance.clearance import Clearance
+    from holdfast.clearance.contacts import Contact
     from holdfast.control.law import Law
 
 Array = NDArray[np.float64]
@@ -45,7 +50,10 @@ _ENDS = {
 
 
 class Reason(IntEnum):
-    """Why a run is undecided, beside its :class:`Outcome`; ``NONE`` where it is decided. No status: a run has an outcome."""
+    """Why a run is undecided, beside its :class:`Outcome`; ``NONE`` where it is decided. No status: a run has an outcome.
+
+    ``CONTACT`` is of runs that were stopped where they touched something.
+    """
 
     NONE = 0
     SINGULAR = 1
@@ -53,6 +61,7 @@ class Reason(IntEnum):
     STEPS = 3
     BAD_INPUT = 4
     HALF_TURN = 5
+    CONTACT = 6
 
     @property
     def sentence(self) -> str:
@@ -70,8 +79,11 @@ _SENTENCES = {
         "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
         "orientation free"
     ),
+    Reason.CONTACT: "the arm was stopped where it first touched something",
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }
+
+UNDECIDED = tuple(reason for reason in Reason if reason not in (Reason.NONE, Reason.CONTACT))
 
 
 @dataclass(frozen=True)
@@ -114,6 +126,8 @@ class _Motion(Protocol):
 
     def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array: ...
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path: ...
+    def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs: ...
+    def recorded(self, runs: Runs, k: int, end: float) -> tuple[Array, Callable[[Array], Array]]: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,6 +152,9 @@ class Runs(Result):
         q_low, q_high: (N, n) least and greatest value of each joint on the way.
         limits_passed: (N, n) True where a joint left its limits; the motion does not heed them.
         time: (N,) s, or cycles, when it ended.
+        clearance: What the arm was to keep clear of, or None: then nobody looked. It changes no run that is not stopped.
+        contacts: First of each pair that touches, of all runs, in order of run and time; None if nobody looked.
+        stopped: (N,) when a run was stopped at its first contact, infinite for never; None if none was to be.
     """
 
     law: Law
@@ -156,6 +173,9 @@ class Runs(Result):
     q_high: Array
     limits_passed: Flags
     time: Array
+    clearance: Clearance | None = None
+    contacts: tuple[Contact, ...] | None = None
+    stopped: Array | None = None
     _motion: _Motion = field(repr=False, compare=False)
     _setting: Setting = field(repr=False, compare=False)
 
@@ -166,6 +186,12 @@ class Runs(Result):
     def outcome(self) -> NDArray[np.str_]:
         """(N,) ``converged``, ``stuck``, ``moving`` or ``undecided``."""
         return np.asarray(_NAMES[self.code])
+
+    @property
+    def held_from(self) -> Array:
+        """(N, n) when each joint stops for good, by its lock or because the run was stopped, s or cycles."""
+        held = np.atleast_2d(self.lock_time)
+        return held if self.stopped is None else np.minimum(held, np.atleast_1d(self.stopped)[:, None])
 
     def counts(self) -> dict[str, int]:
         """How many runs ended in each way."""
@@ -241,6 +267,22 @@ class Runs(Result):
             return "All joints stay within their limits."
         return f"On the way {' and '.join(past)}: a real arm would stop there."
 
+    def contact_sentence(self, k: int | None = None) -> str:
+        """What run k touched first, or how many of all runs touched what, for people; empty if nobody looked."""
+        if self.contacts is None:
+            return ""
+        if k is None and len(self) > 1:
+            touching = len({c.run for c in self.contacts})
+            things = Counter(c.object for c in self.contacts)
+            what = ", ".join(f"{thing} by {count} link{'' if count == 1 else 's'}" for thing, count in things.most_common(3))
+            return f"{touching} of them touch something on the way" + (f" ({what}, all runs together)" if what else "")
+        own = [c for c in self.contacts if c.run == (k or 0)]
+        if not own:
+            return "The arm touches nothing on the way."
+        unit, ends = "cycles" if self.cycles else "s", self.stopped is not None
+        more = "" if len(own) == 1 else f", the first of {len(own)} contacts"
+        return f"{capitalised(own[0].sentence(unit))}{more}{': the run is stopped there' if ends else ''}."
+
     def describe(self) -> list[str]:
         """A few sentences for people."""
         counts = self.counts()
@@ -253,8 +295,8 @@ class Runs(Result):
             there = int((past & (np.atleast_1d(self.code) == Outcome.CONVERGED)).sum())
             lines.append(f"{int(past.sum())} of them pass a joint limit on the way, {there} of these converge")
         reasons = np.atleast_1d(self.reason)
-        lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in Reason if r and (reasons == r).any()]
-        return lines
+        lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in UNDECIDED if (reasons == r).any()]
+        return [*lines, *[x for x in (self.contact_sentence(),) if x]]
 
 
 _NAMES = np.array([o.name.lower() for o in Outcome])

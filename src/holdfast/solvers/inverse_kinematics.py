@@ -29,6 +29,7 @@ from holdfast.solvers import joint_space
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
+Accept = Callable[[Array], NDArray[np.bool_]]
 
 STEPS = 40  # per start; most starts that reach the target do so within 15
 _FLAT, _TINY, _ROUNDING = 1e-6, 1e-9, 1e-15  # sines of half a turn, of no turn, and of which nothing is left but rounding
@@ -224,6 +225,7 @@ class InverseKinematics:
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
+        accept: Accept | None = None,
     ) -> Reach:
         """As :meth:`solve` with joint ``locked[i]`` of row i locked at ``angles[i]``; joint values are not wrapped."""
         rows = np.arange(len(poses))
@@ -236,8 +238,11 @@ class InverseKinematics:
             start[np.arange(chosen.size), locked[chosen]] = angles[chosen]
             return start
 
-        found = self._search(self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock)
+        found = self._search(
+            self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock, accept=accept
+        )
         kept = found.q[rows, locked] == angles
+        kept &= True if accept is None else accept(found.q)
         position_error, rotation_error = self.errors(found.q, poses)
         reached = self._reached(found.q, position_error, rotation_error, tolerance) & kept
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
@@ -254,12 +259,13 @@ class InverseKinematics:
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
+        accept: Accept | None = None,
     ) -> NDArray[np.bool_]:
         """(N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
 
         False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
         """
-        return self.solve_locked(poses, locked, angles, seed, restarts, tolerance).success
+        return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
 
     def near(self, q: Array, pose: Array, free: Array, tolerance: float, steps: int = STEPS) -> tuple[Array, bool]:
         """From q (n,) towards one pose (4, 4), without restarts: for an end effector that is dragged.
@@ -292,8 +298,11 @@ class InverseKinematics:
         tolerance: float,
         prepare: Callable[[Array, NDArray[np.int64]], Array],
         first: Array | None = None,
+        accept: Accept | None = None,
     ) -> _Found:
         """Starts until each of the chosen rows is done; several starts of a row run side by side once few rows are left.
+
+        What is not accepted counts as if its start had led nowhere.
 
         Start k of row i is one of a pool of random configurations, chosen by i and k alone: it does not depend on which
         rows are left, on how many starts run side by side, or on how many rows there are.
@@ -314,7 +323,13 @@ class InverseKinematics:
                 if k == 0 and first is not None:
                     start = first[left]
                 run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
-                done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
+                ended, residuals = run.done, run.residual
+                if accept is not None:
+                    at = np.flatnonzero(ended)
+                    ended = np.zeros_like(ended)
+                    ended[at] = accept(run.state[at])
+                    residuals = np.where(run.done & ~ended, np.inf, residuals)
+                done, rest = ended.reshape(wave, -1), residuals.reshape(wave, -1)
                 solved = done.any(axis=0)
                 # The first start that reached the target, else the one that came closest; NaN never wins.
                 pick = np.where(solved, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
@@ -343,18 +358,34 @@ class InverseKinematics:
         return errors[:, 0], errors[:, 1]
 
     def solve(
-        self, poses: Array, seed: np.random.SeedSequence, restarts: int, tolerance: float, first: Array | None = None
+        self,
+        poses: Array,
+        seed: np.random.SeedSequence,
+        restarts: int,
+        tolerance: float,
+        first: Array | None = None,
+        accept: Accept | None = None,
     ) -> Reach:
-        """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses."""
+        """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses.
+
+        Args:
+            poses: The poses.
+            seed: Of the starts.
+            restarts: At most so many.
+            tolerance: Largest pose error, rad, and lengths in units of the arm's own.
+            first: (N, n) the first start of each, if it is not a random one.
+            accept: Which configurations (K, n) that meet their poses count, (K,); all of them if not given.
+        """
         parameters = _parameters(poses)
         finite = np.isfinite(parameters).all(axis=1)
         rows = np.flatnonzero(finite)
-        found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first)
+        found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept)
         q, used = found.q, found.restarts
         q = joint_space.wrapped(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
         position_error, rotation_error = self.errors(q, poses)
         reached = self._reached(q, position_error, rotation_error, tolerance)
+        reached &= True if accept is None else accept(q)
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
+from holdfast.cli.clearance import CapsulesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -47,6 +48,9 @@ def command(
     duration: Annotated[
         float | None, typer.Option("--duration", help="Longest time, s. Default: until it is at rest.", show_default=False)
     ] = None,
+    cell: TouchedCellOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -73,5 +77,6 @@ def command(
         duration=duration,
         brake_after=tuple(brake) if brake else BRAKES,
         limits=limits,
+        clearance=read_contact_shape(model, capsules, radius, cell),
     )
     printed(swing, json_, ([] if csv is None else [swing.to_csv(csv)]) + drawn(swing, plot, out))

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.clearance import CapsulesOption, ClearanceOption, MarginOption, RadiusOption, check_clearance, read_clearance
+from holdfast.cli.clearance import (
+    CapsulesOption,
+    CellOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_clearance,
+)
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     TASK_HELP,
@@ -83,6 +91,7 @@ def command(
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
     margin: MarginOption = None,
+    cell: CellOption = None,
     at_least: Annotated[
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
@@ -115,7 +124,7 @@ def command(
     from holdfast.kernels.threads import set_threads
 
     threshold = _first(at_least)
-    check_clearance(clearance, capsules, radius, margin)
+    check_clearance(clearance, capsules, radius, margin, cell)
     if threads is not None:
         set_threads(threads)
     candidates = read_candidates(each_arm(arm, base, tip, hold, name), tool or [], task or [])
@@ -145,7 +154,10 @@ def command(
             "optimise": optimise,
             "after_lock": after_lock,
             "locked": read_by_joint(c.arm, lock, "--lock"),
-            "clearance": read_clearance(c.arm, clearance, capsules, radius, margin, optimise) or False,
+            "clearance": read_clearance(
+                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell
+            )
+            or False,
             "margin": margin or 0.0,
         }
         if several:  # what cannot run is said before the first candidate takes its time

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import holdfast as hf
+from holdfast.cli.clearance import CapsulesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
@@ -56,6 +57,12 @@ def command(
     servo_bandwidth: Annotated[
         float, typer.Option("--servo-bandwidth", help="With --physics: bandwidth of the joint servos, Hz.")
     ] = 10.0,
+    cell: TouchedCellOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    stop_at_contact: Annotated[
+        bool, typer.Option("--stop-at-contact", help="With --cell: the run ends where the arm first touches an object.")
+    ] = False,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -76,13 +83,17 @@ def command(
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
-    runs = hf.simulate(made, q0, goal, locked=joints, cycles=cycles, time_limit=time_limit, time=times or 0.0)
+    touched = read_contact_shape(made.arm, capsules, radius, cell)
+    if stop_at_contact and touched is None:
+        raise InputError("--stop-at-contact has nothing to stop at; add --cell")
+    alike: dict[str, Any] = {"locked": joints, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
+    runs = hf.simulate(made, q0, goal, cycles=cycles, stop_at_contact=stop_at_contact, **alike)
     result: Result = runs
     if physics:
         if cycles:
             raise InputError("--physics has a control rate of its own; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
-        result = hf.simulate_physics(made, q0, goal, locked=joints, servos=servos, time_limit=time_limit, time=times or 0.0)
+        result = hf.simulate_physics(made, q0, goal, servos=servos, **alike)
     files = drawn(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
     printed(result, json_, files)
 

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arms.tool import attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
 from holdfast.notice import says
+from holdfast.present.assessment import thresholds
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections.upgrades import paired
+from holdfast.present.clearance.shape import cell_text
 from holdfast.present.commands import capsule_files, command_line, region_files
 from holdfast.report import figures as drawing
 from holdfast.report import page
@@ -75,14 +79,26 @@ def _headline(c: Comparison, f: Facts) -> str:
     else:
         text = f"{ranked[0]} keeps {article(wanted)} {wanted} with the largest probability, {interval(best)}; next is "
         text += f"{ranked[1]} with {interval(second)}."
-        if second.value < best.value and second.high >= best.low:
+        if second.value < best.value and not _apart(c):
             text += f" Their intervals overlap: more {f.noun}s would tell them apart."
     if all(a.optimised is not None for a in c.assessments):
-        chosen = c.best(optimised=True)
-        p = c.interval(chosen, optimised=True)
+        chosen = _ahead(c, optimised=True)
+        p = c.interval(chosen[0], optimised=True)
         if p.value > 0:
-            text += f" After optimisation the largest probability is that of {chosen}, {interval(p)}."
+            text += f" After optimisation the largest probability is that of {' and '.join(chosen)}, {interval(p)}."
     return text
+
+
+def _ahead(c: Comparison, optimised: bool = False) -> list[str]:
+    """The candidates with the largest probability."""
+    values = {name: c.interval(name, optimised).value for name in c.names}
+    return [name for name, value in values.items() if value == max(values.values())]
+
+
+def _apart(c: Comparison) -> bool:
+    """The intervals of the two best candidates do not overlap."""
+    best, second = (c.interval(name) for name in c.ranking()[:2])
+    return second.high < best.low
 
 
 def _nearest(c: Comparison) -> str:
@@ -165,26 +181,63 @@ def figures(c: Comparison) -> dict[str, Figure]:
     samples = [("As inverse kinematics found them" if f.a.region.kind != "joints" else "Cumulative (CDF)", pairs, False)]
     if any(a.optimised is not None for a in c.assessments):
         samples.append(("After optimisation", [(n, a) for n, a in pairs if a.optimised is not None], True))
-    ends = [x for _, some, o in samples for _, a in some for x in (a.of(o).lowest, a.of(o).highest) if np.isfinite(x)]
-    if not ends:
+    axis, log = _axis(c, f)
+    if axis is None:
         return {}
-    log = not f.larger and min(ends) > 0 and max(ends) > 20 * min(ends)
-    bounds = {a.index.bound for a in c.assessments}
     marks = [Mark(c.threshold, f"threshold {as_given(c.threshold)}{f.unit}")]
-    if len(bounds) == 1 and None not in bounds:
-        bound = bounds.pop()
-        assert bound is not None
+    if (bound := _bound(c)) is not None:
         marks.append(Mark(bound, f"no configuration can exceed {bound:.3f}", "bound"))
-    ends += [m.x for m in marks]
-    axis = np.geomspace(min(ends), max(ends), 801) if log else np.linspace(min(0.0, *ends), 1.04 * max(0.0, *ends), 801)
     panels = [(title, [Curve(axis, a.cdf(axis, optimised=o), n) for n, a in some]) for title, some, o in samples]
     return {
         "compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
     }
 
 
+def _bound(c: Comparison) -> float | None:
+    """What no configuration of any candidate can exceed, where that is one number."""
+    bounds = {a.index.bound for a in c.assessments}
+    return bounds.pop() if len(bounds) == 1 else None
+
+
+def _axis(c: Comparison, f: Facts) -> tuple[NDArray[np.float64] | None, bool]:
+    """Values of the index over which all distributions are drawn, and whether evenly by ratio; none where none is finite."""
+    every = [a.of(o) for a in c.assessments for o in (False, True)[: 1 + (a.optimised is not None)]]
+    ends = [x for d in every for x in (d.lowest, d.highest) if np.isfinite(x)]
+    if not ends:
+        return None, False
+    log = not f.larger and min(ends) > 0 and max(ends) > 20 * min(ends)
+    ends += [x for x in (c.threshold, _bound(c)) if x is not None]
+    if log:
+        return np.geomspace(min(ends), max(ends), 801), True
+    return np.linspace(min(0.0, *ends), 1.04 * max(0.0, *ends), 801), False
+
+
+def _asked(c: Comparison, f: Facts, figure: Figure, band: float) -> Block:
+    """A threshold to move, with the probability of each candidate and who leads there."""
+    axis, log = _axis(c, f)
+    assert axis is not None
+    asked = thresholds.steps(axis, log, c.threshold)
+    there = [replace(c, threshold=x) for x in asked.tolist()]
+    answers: dict[str, list[str]] = {}
+    if len({a.index.task.name for a in c.assessments}) == 1:
+        answers["Largest probability"] = [_leading(x) for x in there]
+    for name, a in zip(c.names, c.assessments, strict=True):
+        answers[name] = [interval(x.interval(name)) for x in there]
+        if a.optimised is not None:
+            answers[f"{name}, best configurations"] = [interval(x.interval(name, optimised=True)) for x in there]
+    return thresholds.slider(f, asked, answers, figure, "each curve", band)
+
+
+def _leading(c: Comparison) -> str:
+    """The candidate that is ahead, and whether that is sure; those that are where several have the same."""
+    ahead = _ahead(c)
+    if len(ahead) > 1:
+        return "all alike" if len(ahead) == len(c.names) else f"{' and '.join(ahead)} alike"
+    return ahead[0] if _apart(c) else f"{ahead[0]}; its interval overlaps with the next"
+
+
 def _distributions(c: Comparison, f: Facts) -> list[Block]:
-    """What the figure shows."""
+    """What the figure shows, and a threshold to move over it."""
     drawn = c.figures()
     if not drawn:
         return []
@@ -196,7 +249,8 @@ def _distributions(c: Comparison, f: Facts) -> list[Block]:
         text += f"A pose without a configuration counts as {'0' if f.larger else 'infinite'}. "
     width = max(a.distribution.band() for a in c.assessments)
     text += f"The 95 % band of each curve is ±{width:.3f}."
-    return [Picture(drawing.svg(drawn["compare"], "compare", "Cumulative distributions of all candidates"), text)]
+    picture = Picture(drawing.svg(drawn["compare"], "compare", "Cumulative distributions of all candidates"), text)
+    return [picture, _asked(c, f, drawn["compare"], width)]
 
 
 def _upgrades(c: Comparison, f: Facts) -> list[Block]:
@@ -282,9 +336,17 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
     shapes = [
         (n, x.plan.clearance.capsules.describe(x.arm)) for n, x in zip(c.names, c.assessments, strict=True) if x.plan.clearance
     ]
+    around = {x.plan.cell.digest: cell_text(x.plan.cell) for x in c.assessments if x.plan.cell is not None}
+    if around:
+        facts.append(("Cell", "; ".join(around.values())))
     if shapes and any(x.optimised is not None for x in c.assessments):
         what = "; ".join(f"{name}: {shape}" for name, shape in shapes)
-        facts.append(("Clearance", f"best configurations keep the arm clear of itself, by capsules ({what})"))
+        facts.append(
+            (
+                "Clearance",
+                f"best configurations keep the arm clear of itself{' and the cell' * bool(around)}, by capsules ({what})",
+            )
+        )
     return [Table([[k, v] for k, v in facts])]
 
 

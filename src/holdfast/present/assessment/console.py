@@ -120,7 +120,7 @@ def _optimised(result: Assessment, thresholds: Thresholds) -> dict[str, Any] | N
 
 
 def _clearance(result: Assessment) -> dict[str, Any] | None:
-    """How often the arm collides with itself; None if that was not looked at."""
+    """How often the arm collides with itself or its cell; None if that was not looked at."""
     found, clearance = result.collisions, result.plan.clearance
     if found is None or clearance is None:
         return None
@@ -131,7 +131,13 @@ def _clearance(result: Assessment) -> dict[str, Any] | None:
         "none_clear": found.hopeless if chosen else None,
     }
     shares = {f"{name}_fraction": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
-    return {"reached": found.reached, **counts, **shares, **shape_summary(clearance, found.margin)}
+    clear = None if result.clear is None or not result.distribution.samples else result.reached_clear()
+    around = {
+        "found_with": found.with_each or None,
+        "best_barred_by": found.blocked_by if found.blocked_by and chosen else None,
+        "reached_clear": None if clear is None else {"value": clear.value, "low": clear.low, "high": clear.high},
+    }
+    return {"reached": found.reached, **counts, **shares, **around, **shape_summary(clearance, found.margin)}
 
 
 def _upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = False) -> dict[str, Any] | None:
@@ -257,14 +263,19 @@ def _where(result: Assessment, joint: str) -> str:
 
 
 def _show_clearance(result: Assessment, out: Console) -> None:
-    """How often the arm collides with itself."""
+    """How often the arm collides with itself or its cell."""
     from rich.markup import escape
 
     found, clearance = result.collisions, result.plan.clearance
     if found is None or clearance is None or not found.reached:
         return
     whole = found.reached
-    text = f"the arm collides with itself in {found.found / whole:.1%} of the {whole} configurations found"
+    most = "at most " * (clearance.cell is not None)
+    text = f"the arm collides with {clearance.others} in {most}{found.found / whole:.1%} of the {whole} configurations found"
+    hit = sorted((item for item in found.with_each.items() if item[1]), key=lambda item: -item[1])
+    text += f" ({', '.join(f'{name} {count / whole:.1%}' for name, count in hit)})" if hit else ""
+    if result.clear is not None:
+        text += f"; at least {result.reached_clear().value:.1%} of the poses are reached by a clear one"
     if result.optimised is not None:
         close = clearance.too_close(found.margin)
         text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {close}"

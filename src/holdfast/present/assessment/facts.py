@@ -50,6 +50,18 @@ class Facts(Answer):
         super().__init__(assessment, threshold)
 
     @property
+    def others(self) -> str:
+        """What the arm may collide with: itself, the cell, or both."""
+        clearance = self.a.plan.clearance
+        return "itself" if clearance is None else clearance.others
+
+    @property
+    def everything(self) -> str:
+        """The same with ``and``."""
+        clearance = self.a.plan.clearance
+        return "itself" if clearance is None else clearance.everything
+
+    @property
     def drawable(self) -> bool:
         """There are finite values."""
         return self.d.reached > self.d.infinite

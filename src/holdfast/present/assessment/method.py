@@ -8,6 +8,7 @@ from holdfast import grammar
 from holdfast.assessment.assessment import Assessment
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.commands import capsule_files, command_line, region_files
+from holdfast.present.story import named
 from holdfast.registry import INDICES
 from holdfast.report.page import Block, Code, Table, Text
 from holdfast.words import as_given, capitalised
@@ -103,5 +104,5 @@ def _ranges(a: Assessment) -> str:
 
 def _versions(provenance: dict[str, object]) -> str:
     found = provenance.get("versions")
-    parts = [f"{name} {v}" for name, v in found.items()] if isinstance(found, dict) else []
-    return ", ".join([*parts, f"Python {provenance.get('python', '')}", str(provenance.get("machine", ""))])
+    packages = [named(found)] if isinstance(found, dict) else []
+    return ", ".join([*packages, f"Python {provenance.get('python', '')}", str(provenance.get("machine", ""))])

@@ -42,7 +42,7 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
     facts = Facts(assessment, threshold)
     found = [import_module(f"holdfast.present.assessment.sections.{name}") for name in SECTIONS]
     parts = [Section("", [_verdict(facts)])]
-    parts += [Section(each.TITLE.format(noun=facts.noun), each.blocks(facts)) for each in found]
+    parts += [Section(each.TITLE.format(noun=facts.noun, others=facts.others), each.blocks(facts)) for each in found]
     a = assessment
     return Page(
         f"Fault tolerance of {a.arm.name}",

@@ -26,7 +26,7 @@ from holdfast.present.convergence.law_rows import (
     time_unit,
     within_reach,
 )
-from holdfast.provenance import versions
+from holdfast.present.story import how
 from holdfast.report import page
 from holdfast.report.figures import svg
 from holdfast.report.page import Block, Callout, Cell, Page, Picture, Section, Table, Text
@@ -232,7 +232,6 @@ def _healthy(c: LawComparison) -> list[Block]:
 
 
 def _method(c: LawComparison) -> list[Block]:
-    found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
     first = c.runs[0]
     facts: list[tuple[Cell, Cell]] = [("Motions", c.about or "as they were given")]
     facts += [(name, law.describe()) for name, law in zip(c.names, c.laws, strict=True)]
@@ -244,11 +243,8 @@ def _method(c: LawComparison) -> list[Block]:
         ),
         ("Converged", f"error at most {c.accuracy:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
         ("Undecided", "; ".join(f"{n}: {_reasons(c, n)}" for n in c.names)),
-        ("Arm", c.arm.provenance),
-        ("Fingerprint of the arm", c.arm.fingerprint),
-        ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
     ]
-    return [Table([[a, b] for a, b in facts])]
+    return how(c.arm, *facts)
 
 
 def _reasons(c: LawComparison, name: str) -> str:

@@ -10,12 +10,12 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from holdfast import arms
-from holdfast.assessment.rows import provenance
 from holdfast.designs.convergence import FAILURES, TARGETS, ConvergenceDesigns
 from holdfast.files.output import put
 from holdfast.notice import says
 from holdfast.present.designs.figures import parameters_figure
 from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table
+from holdfast.present.story import how
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.report import figures as drawing
 from holdfast.report import page
@@ -149,27 +149,22 @@ def _file(d: ConvergenceDesigns) -> list[Block]:
 
 def _method(d: ConvergenceDesigns) -> list[Block]:
     s = d.searched
-    how = (
+    measured = (
         "from the stationary sets of the planar arm, all targets at once"
         if d.exact
         else f"simulation: {s['targets']} targets, {s['failures']} failures of each joint at each, the same for all designs; a "
         "joint locks where it is in some configuration at the target, and the arm starts anywhere"
     )
     facts: list[tuple[str, Cell]] = [
-        ("Given arm", f"{d.law.arm.name}: {d.law.arm.source or 'no source given'}"),
         ("Law", d.law.describe()),
-        ("Measured", how),
+        ("Measured", measured),
         (
             "Search",
             f"{s['designs']:,} Sobol designs, those with equal lengths, and pattern searches from {s['climbs']} of them",
         ),
         ("Seed", str(s["seed"])),
     ]
-    p = provenance(None)
-    found = p["versions"]
-    facts.append(("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {p['python']}", str(p["machine"])])))
-    facts.append(("Fingerprint of the given arm", Markup("<code>{}</code>").format(d.law.arm.fingerprint)))
-    return [Table([[k, v] for k, v in facts])]
+    return how(d.law.arm, *facts, called="given arm")
 
 
 def _again(d: ConvergenceDesigns) -> list[Block]:

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from holdfast import arms
 from holdfast.arms.dh_file import text as table_text
-from holdfast.assessment.rows import provenance
 from holdfast.designs.designs import Checked, Designs, chosen, interval_text
 from holdfast.designs.space import DesignSpace
 from holdfast.failures import failure_sets
@@ -23,6 +22,7 @@ from holdfast.notice import says
 from holdfast.present.commands import failures_option, region_file, region_files, task_option
 from holdfast.present.designs.console import at_bound
 from holdfast.present.designs.figures import arms_figure, front_figure
+from holdfast.present.story import how
 from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
@@ -331,7 +331,6 @@ def command(d: Designs) -> tuple[str, str]:
 def _method(d: Designs) -> list[Block]:
     joints = either([d.space.arm.joint_names[k] for k in sorted({k for f in d.index.failures for k in f})])
     facts: list[tuple[str, Cell]] = [
-        ("Given arm", f"{d.space.arm.name}: {d.space.arm.provenance}"),
         ("Index", f"worst-case {d.index.name} over the lock of {joints}; larger is better"),
         ("Task", d.index.task.name),
         ("Region", f"{d.region.name}: {d.region.describe()}; the same for all designs"),
@@ -343,13 +342,9 @@ def _method(d: Designs) -> list[Block]:
         *d.method,
         ("Seed", str(d.seed)),
     ]
-    p = provenance(d.seconds)
     if d.seconds is not None:
         facts.append(("Time", f"{d.seconds:.0f} s"))
-    found = p["versions"]
-    facts.append(("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {p['python']}", str(p["machine"])])))
-    facts.append(("Fingerprint of the given arm", Markup("<code>{}</code>").format(d.space.arm.fingerprint)))
-    return [Table([[k, v] for k, v in facts])]
+    return how(d.space.arm, *facts, called="given arm")
 
 
 def _again(d: Designs) -> list[Block]:

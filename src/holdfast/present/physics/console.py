@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.printing import Rows, number
+from holdfast.present.clearance.contacts import contact_entries, contact_table
+from holdfast.present.printing import Rows, number, print_rows
 from holdfast.present.simulation import console as simulation
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from holdfast.clearance.contacts import Contact
     from holdfast.physics.run import PhysicalRun
 
 
@@ -32,8 +35,12 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
         "damping": dict(zip(names, run.damping.tolist(), strict=True)),
         "control_rate_hz": run.servos.rate,
-    }
+    } | ({} if run.contacts is None else {"contacts": contact_entries(run.contacts)})
     return run.kinematic.to_dict() | {"physics": physics}
+
+
+def _error_unit(run: PhysicalRun) -> str:
+    return "m and rad" if run.law.task.angular else "m"
 
 
 def key_table(run: PhysicalRun) -> Rows:
@@ -41,11 +48,17 @@ def key_table(run: PhysicalRun) -> Rows:
     told = run.kinematic
     rows = [
         ["outcome", str(told.outcome), run.outcome],
-        ["error at the end", number(float(told.error)), number(run.error[-1])],
+        [f"error at the end, {_error_unit(run)}", number(float(told.error)), number(run.error[-1])],
         ["took, s", number(float(told.time)), number(run.time[-1])],
         ["tool paths apart, at most, mm", "", number(1000 * run.path_distance, 3)],
     ]
+    if run.contacts is not None:
+        rows.append(["first contact", *[_first(contacts) for contacts in (told.contacts, run.contacts)]])
     return Rows(["", "kinematic", "in MuJoCo"], rows)
+
+
+def _first(contacts: Sequence[Contact] | None) -> str:
+    return f"{contacts[0].link} & {contacts[0].object}, {number(contacts[0].time)} s" if contacts else "none"
 
 
 def next_steps(run: PhysicalRun, name: str) -> list[str]:
@@ -63,15 +76,16 @@ def show(run: PhysicalRun, out: Console) -> None:
     told = run.kinematic
     simulation.show(told, out)
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
-    size = "m and rad" if run.law.task.angular else "m"
     table = Grid("", "kinematic", "in MuJoCo", "")
     reason = "" if run.reason == "none" else f" ({run.reason})"
     table.add_row("outcome", str(told.outcome), f"[bold]{run.outcome}[/]{reason}", "")
-    table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), size)
+    table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), _error_unit(run))
     table.add_row("took", number(float(told.time)), number(run.time[-1]), "s")
     out.print(table)
     facts = Grid()
     facts.add_row("tool paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
+    if run.contacts:
+        print_rows(out, contact_table(run.contacts))
     facts.add_row("tools apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
     full = [f"{n} {s:.1%}" for n, s in zip(run.law.arm.joint_names, run.saturated, strict=True) if s > 0]
     facts.add_row("motors at their effort", f"{escape(', '.join(full))} of the time" if full else "none")

@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, number
+from holdfast.present.clearance.contacts import contact_entries, contact_table
+from holdfast.present.printing import Rows, number, print_rows
 from holdfast.present.story import Story
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-    from holdfast.physics.swing import FreeSwing
+    from holdfast.physics.fall import FreeSwing
 
 _CLOSE_UP = 1.5  # times the last brake time
 _FRAMES, _SEEN = 201, 0.01  # of a motion; of the farthest that it goes
@@ -45,13 +46,15 @@ def to_dict(swing: FreeSwing) -> dict[str, Any]:
             }
             for d in swing.drops
         ],
-    }
+    } | ({} if swing.contacts is None else {"contacts": contact_entries(swing.contacts)})
 
 
 def key_table(swing: FreeSwing) -> Rows:
     """How far it goes, and where the tool is when brakes act."""
     factor, unit = swing.arm.joints[swing.joint].shown
     rows = [["largest displacement", f"{number(factor * swing.peak)} {unit}"]]
+    if swing.contacts is not None:
+        rows.append(["touches", ", ".join(f"{c.link} & {c.object} at {number(c.time)} s" for c in swing.contacts) or "nothing"])
     rows += [[f"tool has dropped after {d.after_ms:g} ms", f"{number(1000 * d.drop)} mm"] for d in swing.drops]
     return Rows(["", ""], rows)
 
@@ -99,6 +102,10 @@ def show(swing: FreeSwing, out: Console) -> None:
                 f"{number(1000 * d.distance)} mm",
             )
         out.print(table)
+    if swing.contacts:
+        print_rows(out, contact_table(swing.contacts))
+    elif swing.contacts is not None:
+        out.print("It touches nothing on the way.")
 
 
 def story(swing: FreeSwing) -> Story:
@@ -114,6 +121,7 @@ def story(swing: FreeSwing) -> Story:
         "balanced": f"{failed.name} does not move when it swings free here: gravity pulls it neither way",
         "rest": f"{failed.name} swings by up to {amount(swing.peak)} and hangs still {amount(abs(swing.rest_angle))} away",
         "stop": f"{failed.name} falls against its stop, {amount(abs(swing.rest_angle))} away",
+        "contact": f"{failed.name} falls until {_lies(swing)}, {amount(abs(swing.rest_angle))} away",
         "moving": f"{failed.name} swings by up to {amount(swing.peak)} and still moves after {number(swing.time[-1])} s",
     }
     answer = words[swing.outcome]
@@ -147,7 +155,10 @@ def story(swing: FreeSwing) -> Story:
         figures={
             "swing": ("Over time", "How far the joint has moved and the height of the tool; dots: where brakes would hold it.")
         },
-        tables=[Rows(["brakes engage after", joint, "at", "tool has dropped", "and moved"], rows)] if rows else [],
+        tables=[
+            *([Rows(["brakes engage after", joint, "at", "tool has dropped", "and moved"], rows)] if rows else []),
+            *([contact_table(swing.contacts)] if swing.contacts else []),
+        ],
         method=[
             ("Friction", f"viscous, {friction}"),
             ("Brakes", "are taken to stop the joint at once"),
@@ -159,6 +170,12 @@ def story(swing: FreeSwing) -> Story:
         ],
         arm=swing.arm,
     )
+
+
+def _lies(swing: FreeSwing) -> str:
+    """What is against what in the end: the first contact, as far as was noted."""
+    first = swing.contacts[0] if swing.contacts else None
+    return "it lies against an object" if first is None else f"{first.link} lies against {first.object}"
 
 
 def _moving(swing: FreeSwing) -> list[tuple[str, list[Any]]]:

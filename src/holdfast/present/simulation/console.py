@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, alike, number
+from holdfast.present.clearance.contacts import contact_entries, contact_table
+from holdfast.present.clearance.shape import shape_summary
+from holdfast.present.printing import Rows, alike, number, print_rows
 from holdfast.simulation.runs import Outcome, Reason, Runs
 
 if TYPE_CHECKING:
@@ -40,7 +42,16 @@ def to_dict(runs: Runs) -> dict[str, Any]:
         "q_high": by_joint(runs.q_high),
         "limits_passed": [name for name, passed in by_joint(runs.limits_passed).items() if passed.any()],
         "limits": {joint.name: [joint.lower, joint.upper] for joint in arm.joints},
-    }
+    } | _touched(runs, unit)
+
+
+def _touched(runs: Runs, unit: str) -> dict[str, Any]:
+    """What was looked at and what was touched; nothing if nobody looked."""
+    if runs.clearance is None or runs.contacts is None:
+        return {}
+    stopped = {} if runs.stopped is None else {f"stopped_at_{unit}": runs.stopped}
+    contacts = contact_entries(runs.contacts, unit, bool(runs.code.ndim))
+    return {"contacts": contacts, **stopped, "clearance": shape_summary(runs.clearance, 0.0)}
 
 
 def sentences(runs: Runs) -> list[str]:
@@ -49,7 +60,11 @@ def sentences(runs: Runs) -> list[str]:
         return runs.describe()
     why = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
     ended = f"The end effector {Outcome(int(runs.code)).sentence}{why}."
-    return [x for x in (ended, runs.limits_sentence(), f"Arm {runs.law.arm.title}, {runs.law.describe()}.") if x]
+    return [
+        x
+        for x in (ended, runs.limits_sentence(), runs.contact_sentence(), f"Arm {runs.law.arm.title}, {runs.law.describe()}.")
+        if x
+    ]
 
 
 def key_table(runs: Runs) -> Rows:
@@ -57,7 +72,10 @@ def key_table(runs: Runs) -> Rows:
     if runs.code.ndim:
         rows = [[name, f"{count:,}"] for name, count in runs.counts().items()]
         past = np.atleast_2d(runs.limits_passed).any(axis=1)
-        return Rows(["outcome", "runs"], [*rows, ["past a joint limit on the way", f"{int(past.sum()):,}"]])
+        rows.append(["past a joint limit on the way", f"{int(past.sum()):,}"])
+        if runs.contacts is not None:
+            rows.append(["touch something on the way", f"{len({c.run for c in runs.contacts}):,}"])
+        return Rows(["outcome", "runs"], rows)
     unit, size = "cycles" if runs.cycles else "s", "m and rad" if runs.law.task.angular else "m"
     locks = [
         f"{name} at {t:g} {unit}" for name, t in zip(runs.law.arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)
@@ -69,6 +87,10 @@ def key_table(runs: Runs) -> Rows:
         ["path of the end effector", f"{number(float(runs.path_length))} m"],
         ["took", f"{number(float(runs.time))} {unit}"],
     ]
+    if runs.contacts is not None:
+        rows.append(
+            ["touches", ", ".join(f"{c.link} & {c.object} at {number(c.time)} {unit}" for c in runs.contacts) or "nothing"]
+        )
     return Rows(["", ""], rows)
 
 
@@ -99,6 +121,8 @@ def show(runs: Runs, out: Console) -> None:
     out.print(f"The end effector [bold]{Outcome(int(runs.code)).sentence}[/]{escape(reason)}.", soft_wrap=True)
     if limits := escape(runs.limits_sentence()):
         out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
+    if touched := escape(runs.contact_sentence()):
+        out.print(f"[yellow]{touched}[/]" if runs.contacts else touched, soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"
     facts = Grid()
     facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
@@ -115,3 +139,5 @@ def show(runs: Runs, out: Console) -> None:
         notes += ["passes its limits"] if runs.limits_passed[k] else []
         table.add_row(escape(joint.name), *cells, ", ".join(notes))
     out.print(table)
+    if runs.contacts:
+        print_rows(out, contact_table(runs.contacts, unit))

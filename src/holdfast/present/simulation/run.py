@@ -10,19 +10,23 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
+from holdfast.clearance.contacts import Contact
 from holdfast.files.output import made, write_table
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
 from holdfast.present.arm.view import scene
+from holdfast.present.clearance.contacts import contact_table
+from holdfast.present.clearance.shape import shape_text
+from holdfast.present.results import as_table
 from holdfast.present.stick_figure import views_of
 from holdfast.present.story import how
 from holdfast.report import page
 from holdfast.report.figures import save_png, svg
 from holdfast.report.motions import Motion, Panel, drawn_motion, motion_figure
-from holdfast.report.page import Block, Page, Picture, Section, Table
+from holdfast.report.page import Block, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs
-from holdfast.words import number
+from holdfast.words import capitalised, number
 
 Array = NDArray[np.float64]
 
@@ -55,7 +59,10 @@ def to_csv(runs: Runs, file: File, k: int) -> File:
     law, path = runs.law, _RunReport(runs, k).path
     time = "time_cycles" if runs.cycles else "time_s"
     header = [time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"]
-    return write_table(file, "motion", header, np.column_stack([path.time, path.q, path.x, path.error]))
+    columns = [path.time, path.q, path.x, path.error]
+    if runs.clearance is not None:
+        header, columns = [*header, "clearance_m"], [*columns, runs.clearance(path.q)]
+    return write_table(file, "motion", header, np.column_stack(columns))
 
 
 class _RunReport:
@@ -129,7 +136,7 @@ class _RunReport:
         if code != Outcome.CONVERGED:
             told += f"; with what is locked it could not come closer than {number(least)} {self.size}" if out else ""
             told += "; it could get there with what is locked" if not out and self.standing else ""
-        return f"{told}. {self.runs.limits_sentence(self.k)}".rstrip()
+        return " ".join(x for x in (f"{told}.", self.runs.limits_sentence(self.k), self.runs.contact_sentence(self.k)) if x)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
@@ -137,8 +144,14 @@ class _RunReport:
             (self.least, self.size, "the least error that the failed arm can have, as far as was found"),
             (float(self._of("path_length")), "m", "path of the tool"),
             (float(self._of("time")), self.unit, "until the run ended"),
+            *[(c.time, self.unit, f"until {c.link} touches {c.object}") for c in self.contacts[:1]],
         ]
         return [(f"{number(value)} {unit}", words) for value, unit, words in facts if value > _REACHED]
+
+    @property
+    def contacts(self) -> list[Contact]:
+        """What it touches."""
+        return [c for c in self.runs.contacts or () if c.run == self.k]
 
     @property
     def few(self) -> NDArray[np.int64]:
@@ -189,6 +202,7 @@ class _RunReport:
             Section("The motion", [self._view()]),
             Section("The error of the end effector", [self._error()]),
             Section("Joint positions", [self._joints()]),
+            *[Section("What it touches", blocks) for blocks in (self._touched(),) if blocks],
             *more,
             Section("In numbers", self._numbers()),
         ]
@@ -251,6 +265,20 @@ class _RunReport:
             panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
         image = small_multiples(self.seen.time, panels, "Joint positions over time", self._xlabel)
         return Picture(image, "Joint positions; dashed: a limit, where one is near.")
+
+    def _touched(self) -> list[Block]:
+        """How far the arm is from what it may touch, and every contact."""
+        clearance = self.runs.clearance
+        if clearance is None:
+            return []
+        seen, label = self.seen, "smallest distance, m"
+        moments = tuple((c.time, 0.0, f"{c.link} & {c.object}") for c in self.contacts[:1] if c.time <= seen.time[-1])
+        panel = Panel(seen.time, clearance(seen.q), label, "The arm and what it may touch", (0.0, "touches"), moments)
+        figure = motion_figure([panel], self.caption, self._xlabel)
+        about = f"Below 0 the arm touches something. {capitalised(shape_text(clearance, 0.0))}."
+        image = svg(figure, "clearance", "Smallest distance of the arm from what it may touch over time")
+        table = [as_table(contact_table(self.contacts, self.unit))] if self.contacts else [Text("It touches nothing.")]
+        return [Picture(image, about), *table]
 
     def _numbers(self) -> list[Block]:
         size = self.size

@@ -256,7 +256,7 @@ def _show_clearance(found: Optima, out: Console) -> None:
     close, blocked = found.clearance.too_close(found.margin), int(found.blocked.sum())
     if len(before) == 1:
         apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
-        text = f"clearance of the arm from {found.clearance.others}: {apart}"
+        text = f"clearance of the arm from {found.clearance.everything}: {apart}"
         text += f"; a better configuration {close} and was not taken: {found.obstacles[0]}" if blocked else ""
     else:
         counts = [int(found.close(x).sum()) for x in (found.before, found.q)]

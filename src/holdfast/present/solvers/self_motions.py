@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, number, print_rows
 from holdfast.present.story import Story
 from holdfast.solvers.joint_space import turning
 from holdfast.status import Status
@@ -191,23 +191,12 @@ def _moving(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
 
 
 def show(motion: SelfMotion, out: Console) -> None:
-    """A table of the curves, and one of where each joint may lock."""
+    """The tables of its page; how many configurations were found the first line says."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
-
     out.print(escape(motion.describe()[0]), soft_wrap=True)
-    if motion.components:
-        table = Grid("curve", "length", "points", "")
-        for k, c in enumerate(motion.components):
-            table.add_row(str(k + 1), f"{number(c.length)} rad", str(len(c.q)), escape(motion.ends(k)))
-        out.print(table)
-    if motion.bounds is not None:
-        table = Grid("joint", "may lock at", "")
-        for k, (joint, found) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True)):
-            word = "anywhere" if _whole(motion, k) else "" if found else "nowhere"
-            table.add_row(escape(joint.name), ranges(found, joint), word)
-        out.print(table)
+    for table in _tables(motion)[0 if motion.components else 1 :]:
+        print_rows(out, table)
 
 
 def ranges(arcs: Sequence[Sequence[float]], joint: Joint) -> str:

@@ -124,7 +124,8 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
     for s in stand:
         (name, p), *rest = s.ranked
         level = s.level[1:]
-        sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
+        alone = "clearly ahead" if p.low > 0 else "perhaps 0 as well"  # the others may be 0 for certain
+        sure = "–" if not rest else f"level with {', '.join(level)}" if level else alone
         sure += "".join(f"; {arm}: 0 by structure" for arm in s.ended)
         after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
         question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])

@@ -135,7 +135,10 @@ function makeSortable(table) {
     contents();
     document.querySelectorAll("table.sortable").forEach(makeSortable);
     document.querySelectorAll("pre").forEach(function (pre) {
-      const text = pre.textContent, shown = element("span", text);
+      const text = pre.textContent, shown = element("span");
+      text.split(/(--[a-z][a-z-]*)/).forEach(function (part, k) { // a browser breaks lines behind a hyphen
+        shown.append(k % 2 ? element("span", part, "option") : part);
+      });
       pre.replaceChildren(copier(function () { return text; }, shown), shown);
     });
     document.querySelectorAll(".extra").forEach(function (box) {

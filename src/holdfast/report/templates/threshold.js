@@ -8,6 +8,7 @@ extras.threshold = function (box, data) {
     figure.append(line);
     return line;
   });
+  const rows = Array.from(box.querySelectorAll("dt"), function (row) { return row.textContent; });
   const answers = Array.from(box.querySelectorAll("[data-row]")), bars = Array.from(box.querySelectorAll(".bars li"));
   function place(frame, value) {
     const scale = frame.log ? Math.log : Number;
@@ -18,7 +19,7 @@ extras.threshold = function (box, data) {
     const k = Number(slider.value);
     box.querySelector(".asked").textContent = data.thresholds[k];
     answers.forEach(function (answer, row) { answer.textContent = data.answers[row][k]; });
-    slider.setAttribute("aria-valuetext", data.thresholds[k] + ": " + data.answers.map(function (row) { return row[k]; }).join("; "));
+    slider.setAttribute("aria-valuetext", data.thresholds[k] + ": " + data.answers.map(function (row, n) { return rows[n] + " " + row[k]; }).join("; "));
     data.frames.forEach(function (frame, n) {
       const x = place(frame, data.values[k]);
       const inside = x >= frame.box[0] - 0.5 && x <= frame.box[2] + 0.5;

@@ -1,70 +1,49 @@
 """Who may come in: only pages that the studio itself has served, so that no other page can reach into it.
 
-A browser lets every page of the web open a WebSocket to this machine, and tells in ``Origin`` whose page it is; a page that
-gives its own name the address of this machine (DNS rebinding) is told by ``Host``. Other programs send no
-``Origin``; they run on this machine, or in a network that ``--host`` has let in.
+The rule is that of :mod:`holdfast.files.hosts`. Programs that are no browsers run on this machine, or in a network that
+``--host`` has let in.
 """
 
 from __future__ import annotations
 
 import gzip
 import ipaddress
-import re
 import socket
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from http import HTTPStatus
 from importlib import resources
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
 
 from holdfast.errors import HoldfastError
+from holdfast.files.hosts import fault, is_loopback
 
 LARGEST = 8 << 20  # bytes of one message of a browser: a picture of the scene has less, and so has a part of an upload
 _TITLE, _HEAD = "<title>Viser</title>", "</head>"
-_HOST = re.compile(r"(?:[A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
 _PATCHING = threading.Lock()
 
 
-def welcome(host: str | None, origin: str | None, served: str) -> bool:
+def welcome(hosts: Sequence[str], origins: Sequence[str], served: str) -> bool:
     """Whether a request is for this studio, and of a page of it or of no page at all.
 
     Args:
-        host: Its ``Host`` header.
-        origin: Its ``Origin`` header; None: it has none.
+        hosts: Its ``Host`` headers.
+        origins: Its ``Origin`` headers.
         served: The address that the studio listens on, as it was given.
     """
-    name = _name(host)
-    if name is None or not (name in ("localhost", served.lower()) or _is_here(name, served)):
-        return False
-    return origin is None or origin.lower() in (f"http://{host}".lower(), f"https://{host}".lower())
-
-
-def _name(host: str | None) -> str | None:
-    """The name in a ``Host`` header, without its port; None if there is no such name."""
-    try:
-        return urlsplit(f"//{host}").hostname if host and _HOST.fullmatch(host) else None
-    except ValueError:
-        return None
+    return fault(hosts, origins, lambda name: name in ("localhost", served.lower()) or _is_here(name, served)) is None
 
 
 def _is_here(name: str, served: str) -> bool:
     """Whether a name is one that no other page can have: an address, or this machine's own name."""
+    anywhere = not is_loopback(served.lower())
     try:
-        address = ipaddress.ip_address(name)
+        return ipaddress.ip_address(name).is_loopback or anywhere
     except ValueError:
-        return not _is_loopback(served) and name in (socket.gethostname().lower(), f"{socket.gethostname()}.local".lower())
-    return address.is_loopback or not _is_loopback(served)
-
-
-def _is_loopback(served: str) -> bool:
-    try:
-        return ipaddress.ip_address(served).is_loopback
-    except ValueError:
-        return served.lower() == "localhost"
+        return anywhere and name in (socket.gethostname().lower(), f"{socket.gethostname()}.local".lower())
 
 
 class Entrance:
@@ -112,8 +91,7 @@ class Entrance:
     def _answer(self, request: Any) -> Any:
         """The page, a refusal, or None where viser is to answer."""
         hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
-        known = len(hosts) == 1 and len(origins) < 2
-        if not (known and welcome(hosts[0], origins[0] if origins else None, self._served)):
+        if not welcome(hosts, origins, self._served):
             text = "Refused: this studio answers only to pages that it has served itself; open the address that it printed.\n"
             return _response(HTTPStatus.FORBIDDEN, text.encode(), "text/plain; charset=utf-8")
         if request.headers.get("Upgrade") is None and request.path.partition("?")[0] in ("/", "/index.html"):

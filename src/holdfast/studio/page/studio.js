@@ -52,13 +52,32 @@
     if (event.dataTransfer.files.length === 1) open(event.dataTransfer.files[0]);
     else alarm("Drop one file at a time.");
   });
+  let sent = 0, before; // when a file was sent of which nothing bad was said yet, and what was said before it
+  const bad = () => document.querySelector(".hf-line[data-bad]")?.textContent;
+
   addEventListener("change", (event) => {
     const file = event.target.type === "file" ? event.target.files[0] : undefined;
-    if (file === undefined || file.size <= LARGEST) return;
+    if (file === undefined) return;
+    if (file.size <= LARGEST) {
+      [sent, before] = [Date.now(), bad()];
+      return;
+    }
     event.stopImmediatePropagation();
     event.target.value = "";
     alarm(`'${file.name}' is too large; at most 4 MiB can be opened here.`);
   }, true);
+
+  function answer() { // viser says of every file that it came; whether it could be opened it does not know
+    for (const part of document.querySelectorAll("[role=alert] *"))
+      if (part.childElementCount === 0 && part.textContent === "File uploaded successfully.")
+        part.textContent = "Received; whether it can be opened is said above the controls.";
+    const now = bad();
+    if (now !== undefined && now !== before && Date.now() - sent < 20000) {
+      sent = 0;
+      alarm(now);
+    }
+    before = now;
+  }
 
   // ---- what is pressed, and names for those who hear the page --------------------------------------------------------
 
@@ -96,7 +115,7 @@
   function changed() {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; mark(); fold(); });
+    requestAnimationFrame(() => { waiting = false; mark(); fold(); answer(); });
   }
 
   addEventListener("DOMContentLoaded", () => {

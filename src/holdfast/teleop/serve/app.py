@@ -26,7 +26,7 @@ from holdfast.teleop.serve import bounded, experimenter
 from holdfast.teleop.serve.briefing import experiment
 from holdfast.teleop.serve.connection import session
 from holdfast.teleop.serve.control import Control
-from holdfast.teleop.serve.guard import LOOPBACK, Guard, Guarded
+from holdfast.teleop.serve.guard import Guard, Guarded
 from holdfast.teleop.serve.messages import MOST_BYTES
 from holdfast.teleop.serve.texts import ENGLISH
 from holdfast.teleop.serve.texts import read as read_texts
@@ -190,11 +190,6 @@ def _listening(host: str, port: int) -> socket.socket:
             ) from error
         opened.pop_all()
     return listener
-
-
-def is_loopback(host: str) -> bool:
-    """Whether only this computer can ask there."""
-    return host in (*LOOPBACK, "::1")
 
 
 def _files(folder: Path) -> dict[str, Callable[[Request], Response]]:

@@ -17,9 +17,8 @@ from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from holdfast.errors import InputError
+from holdfast.files import hosts
 
-LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-_HOST = re.compile(r"(?:[A-Za-z0-9.-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
 _TOKEN = re.compile("[A-Za-z0-9_-]{12,128}")
 _GUESSED = ("password", "passwort", "qwerty", "letmein", "holdfast", "secret", "token", "study", "admin")
 _WRONG, _AGAIN = 200.0, 1.0  # wrong tokens and keys of one address at once, and a second after that
@@ -45,15 +44,12 @@ class Guard:
     def fault(self, scope: Scope) -> str | None:
         """What is wrong with a request; None for nothing."""
         headers = Headers(scope=scope)
-        hosts = headers.getlist("host")
-        host = hosts[0] if len(hosts) == 1 else ""
-        if not _HOST.fullmatch(host) or (self.loopback and re.sub(r":\d+$", "", host) not in LOOPBACK):
-            return "the request names another host"
-        origin = headers.get("origin")
+        origins = headers.getlist("origin")
+        wrong = hosts.fault(headers.getlist("host"), origins, lambda name: not self.loopback or hosts.is_loopback(name))
+        if wrong is not None:
+            return wrong
         unsafe = scope["type"] == "websocket" or scope["method"] not in ("GET", "HEAD")
-        if origin is not None and origin.lower() not in (f"http://{host}".lower(), f"https://{host}".lower()):
-            return "the request comes from a page of another host"
-        if origin is None and unsafe and headers.get("sec-fetch-site", "same-origin") != "same-origin":
+        if not origins and unsafe and headers.get("sec-fetch-site", "same-origin") != "same-origin":
             return "the request comes from a page of another host"
         path = scope["path"]
         if any(path == area or path.startswith(area + "/") for area in _EXPERIMENTER):

@@ -45,13 +45,14 @@ def _kept(f: Facts) -> str:
     clearance, margin = f.a.plan.clearance, f.a.plan.margin
     if clearance is None:
         return " and the joint limits, even where the arm collides with itself"
-    apart = f"a clearance of {margin:g} m" if margin else "the arm clear of itself"
+    apart = f"a clearance of {margin:g} m" if margin else f"the arm clear of {f.everything}"
     return f", the joint limits and {apart} ({clearance.capsules.describe(f.a.arm)})"
 
 
 def _lost(f: Facts) -> str:
     hopeless = f.a.collisions.hopeless if f.a.collisions is not None else 0
-    return f" {counted(hopeless, 'pose')} without a configuration clear of the arm itself have no dot." if hopeless else ""
+    others = "the arm itself" if f.others == "itself" else f.everything
+    return f" {counted(hopeless, 'pose')} without a configuration clear of {others} have no dot." if hopeless else ""
 
 
 def _table(f: Facts, best: Distribution) -> Table:

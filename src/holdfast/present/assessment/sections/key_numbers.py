@@ -35,7 +35,7 @@ def blocks(f: Facts) -> list[Block]:
         facts.append(("Infinite", f.share(d.infinite) + ", of those with a configuration"))
     through = collisions.summary(f)
     if through:
-        facts.append(("Collides with itself", through))
+        facts.append((f"Collides with {f.others}", through))
     if d.samples and f.decided:
         facts.append((f"P({f.condition})", f"{interval(f.answer)}; {_why(f)}"))
         if d.unreached and d.reached:

@@ -41,13 +41,13 @@ def blocks(f: Facts) -> list[Block]:
     blocks: list[Block] = [
         Text(
             f"Healthy, the arm reaches {percent(1 - f.d.unreached_share)} of {'the weight of ' if f.d.weighted else ''}the "
-            f"{f.d.samples:,} poses. The lock that costs most is that of {worst}, {rules[worst]}: "
+            f"{f.d.samples:,} poses{_clear(f)}. The lock that costs most is that of {worst}, {rules[worst]}: "
             f"{interval(shares[worst])} of the poses are left."
         ),
         Picture(
             figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
-            f"Each joint is locked {where}. A pose counts as left if one "
-            f"of {LOCK_RESTARTS} starts reaches it with that joint held there; so the fractions are lower bounds.",
+            f"Each joint is locked {where}. A pose counts as left if one of {LOCK_RESTARTS} starts reaches it with that joint "
+            f"held there{_and_clear(f)}; so the fractions are lower bounds.",
         ),
     ]
     blocks += _before_and_after(f, f.a.arm.joint_index(worst), rules[worst])
@@ -59,6 +59,15 @@ def blocks(f: Facts) -> list[Block]:
         )
     )
     return blocks
+
+
+def _clear(f: Facts) -> str:
+    """The same where only configurations clear of the cell count, if there is one."""
+    return "" if f.a.clear is None else f" and at least {interval(f.a.reached_clear())} of all clear of {f.everything}"
+
+
+def _and_clear(f: Facts) -> str:
+    return "" if f.a.clear is None else f", clear of {f.everything}"
 
 
 def _whole(f: Facts) -> float:
@@ -87,13 +96,14 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
         return []
     view = views[0]
     left = f.a.columns["survives"][:][rows.number, joint] == 1
+    healthy = rows.reached if f.a.clear is None else f.a.columns["clear"][:][rows.number] == 1
     name = f.a.arm.joint_names[joint]
-    figure = before_and_after_figure(rows.position, rows.reached, left, view, name, rows.weight)
+    figure = before_and_after_figure(rows.position, healthy, left, view, name, rows.weight)
     total = len(left)
     text = (
         f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
-        f"how many poses the cell holds. Left: the healthy arm reaches {int(rows.reached.sum()):,} of {total:,} poses. Right: "
-        f"with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
+        f"how many poses the cell holds. Left: the healthy arm reaches {int(healthy.sum()):,} of {total:,} poses"
+        f"{_and_clear(f)}. Right: with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
     )
     if f.d.weighted:
         text += " Fractions count by weight, these numbers do not."

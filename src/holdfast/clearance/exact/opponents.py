@@ -11,8 +11,8 @@ from scipy.spatial import cKDTree
 
 from holdfast.cell.meshes import Points
 from holdfast.cell.solids import HalfSpace, Solid
-from holdfast.clearance.bodies import Body, of_solid
-from holdfast.clearance.engines import CONTACT, Engine
+from holdfast.clearance.exact.bodies import Body, of_solid
+from holdfast.clearance.exact.engines import CONTACT, Engine
 
 Array = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.clearance.bodies import Body
+from holdfast.clearance.exact.bodies import Body
 from holdfast.errors import HoldfastError
 
 Array = NDArray[np.float64]

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh
-from holdfast.clearance.bodies import box_about, of_solid, solids_within
+from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.chains import spheres_of
-from holdfast.clearance.contacts import Contacts, parts_of, spheres_within
-from holdfast.clearance.engines import CONTACT, Engine, for_distances, for_signs
-from holdfast.clearance.formulas import NOWHERE, FormulaObjects
-
-if TYPE_CHECKING:
-    from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.bodies import box_about, of_solid, solids_within
+from holdfast.clearance.exact.engines import CONTACT, Engine, for_distances, for_signs
+from holdfast.clearance.exact.meetings import Meetings, parts_of, spheres_within
+from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
+from holdfast.clearance.obstacles import Obstacles
 
 Array = NDArray[np.float64]
 Truths = NDArray[np.bool_]
+Pair = tuple[int, int]
 
 _FEW = 500  # faces of a hull, all of which are looked at before a library is asked
 
@@ -29,12 +30,26 @@ class Exactness:
     """The exact side of a clearance.
 
     Args:
-        clearance: The bound, and what is checked.
+        arm: The arm.
+        capsules: What covers it.
+        alone: The bound without the cell: its smallest distance (N,) and that of every pair (N, P), m.
+        pairs: Positions of the capsules that are checked against each other, the one nearer to the base first.
+        ignored: Positions of those that are not.
+        obstacles: The objects of its cell, or None.
     """
 
-    def __init__(self, clearance: Clearance) -> None:
-        self._clearance = clearance
-        self.parts = parts_of(clearance.capsules)
+    def __init__(
+        self,
+        arm: Arm,
+        capsules: Capsules,
+        alone: tuple[Callable[[Array], Array], Callable[[Array], Array]],
+        pairs: Sequence[Pair],
+        ignored: Sequence[Pair],
+        obstacles: Obstacles | None,
+    ) -> None:
+        self.arm, self.capsules, self.obstacles = arm, capsules, obstacles
+        self._alone, self._pairs, self._ignored = alone, pairs, ignored
+        self.parts = parts_of(capsules)
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
@@ -45,7 +60,7 @@ class Exactness:
             HoldfastError: No library for it is installed.
         """
         contacts = self._signs
-        bound = np.minimum(self._clearance.alone(q), self._around.least(q))
+        bound = np.minimum(self._alone[0](q), self._around.least(q))
         found = np.asarray(bound >= CONTACT)
         (left,) = np.nonzero(bound < CONTACT)
         left = left[self._within.least(q[left]) >= -CONTACT]
@@ -77,22 +92,21 @@ class Exactness:
         return f"{engine.name}, to {1e3 * engine.within:g} mm"
 
     @cached_property
-    def _signs(self) -> Contacts:
+    def _signs(self) -> Meetings:
         return self._contacts(for_signs())
 
     @cached_property
-    def _distances(self) -> Contacts:
+    def _distances(self) -> Meetings:
         return self._contacts(for_distances())
 
-    def _contacts(self, engine: Engine) -> Contacts:
-        c = self._clearance
-        return Contacts(c.arm, self.parts, [self._between(*links) for links in self._columns], c.obstacles, engine)
+    def _contacts(self, engine: Engine) -> Meetings:
+        return Meetings(self.arm, self.parts, [self._between(*links) for links in self._columns], self.obstacles, engine)
 
     # ---- pairs of links ------------------------------------------------------------------------------------------
 
     def _between(self, low: int, high: int) -> list[tuple[int, int]]:
         """Bodies of two links that are checked against each other, by their positions in ``parts``."""
-        shape = self._clearance.capsules.shape
+        shape = self.capsules.shape
         unchecked = frozenset() if shape is None else shape.unchecked
         found = []
         for a, b in product(range(len(self.parts)), repeat=2):
@@ -108,25 +122,23 @@ class Exactness:
 
         Pairs of capsules about bodies that are not checked against each other, ``capsules.apart``, do not count.
         """
-        c = self._clearance
+        parts = self.capsules.parts
         found: dict[tuple[int, int], list[int]] = {}
-        for k, (a, b) in enumerate(c.pairs):
-            found.setdefault((c.capsules.parts[a].link, c.capsules.parts[b].link), []).append(k)
+        for k, (a, b) in enumerate(self._pairs):
+            found.setdefault((parts[a].link, parts[b].link), []).append(k)
         lacking = {
-            (c.capsules.parts[a].link, c.capsules.parts[b].link)
-            for a, b in (ignored.pair for ignored in c.ignored)
-            if (min(a, b), max(a, b)) not in c.capsules.apart
+            (parts[a].link, parts[b].link) for a, b in self._ignored if (min(a, b), max(a, b)) not in self.capsules.apart
         }
         return {links: [] if links in lacking else columns for links, columns in found.items()}
 
     # ---- bounds --------------------------------------------------------------------------------------------------
 
     def _bounds(self, q: Array, limit: float) -> Array:
-        """(N, P) as :class:`Contacts` takes them; better ones of hulls only below a limit, m."""
-        every = self._clearance.alone.by_pair(q)
+        """(N, P) as :class:`Meetings` takes them; better ones of hulls only below a limit, m."""
+        every = self._alone[1](q)
         own = [every[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf) for columns in self._columns.values()]
         around = self._around.distances(q)
-        seen, frames = self._clearance.obstacles, self._clearance.arm.frames(q)
+        seen, frames = self.obstacles, self.arm.frames(q)
         for k, (normals, offsets) in self._hulls.items():
             assert seen is not None
             for at, link in enumerate(seen.links):
@@ -142,7 +154,7 @@ class Exactness:
     @cached_property
     def _hulls(self) -> dict[int, tuple[Array, Array]]:
         """Of objects that are hulls of few faces: normals (F, 3) and offsets (F,), m, in the world."""
-        found, seen = {}, self._clearance.obstacles
+        found, seen = {}, self.obstacles
         for k, solid in enumerate(() if seen is None else seen.cell):
             body = of_solid(solid) if isinstance(solid, Mesh) else None
             if body is not None and body.kind == "convex" and len(body.faces) <= _FEW:
@@ -154,19 +166,19 @@ class Exactness:
     @cached_property
     def _around(self) -> FormulaObjects:
         """The objects, and boxes about those without a formula, seen from the cover of the arm: below the true distances."""
-        c, seen = self._clearance, self._clearance.obstacles
+        seen = self.obstacles
         if seen is None:
-            return FormulaObjects(c.arm, spheres_of(c.capsules), [], np.zeros((0, 0)))
+            return FormulaObjects(self.arm, spheres_of(self.capsules), [], np.zeros((0, 0)))
         return FormulaObjects(
-            c.arm, seen.balls, [box_about(x) for x in seen.cell], seen.added(seen.links, np.arange(len(seen.cell)))
+            self.arm, seen.balls, [box_about(x) for x in seen.cell], seen.added(seen.links, np.arange(len(seen.cell)))
         )
 
     @cached_property
     def _within(self) -> FormulaObjects:
         """What lies within the objects, seen from spheres within the arm: above the true distances, where below 0."""
-        c, balls, seen = self._clearance, spheres_within(self.parts), self._clearance.obstacles
+        balls, seen = spheres_within(self.parts), self.obstacles
         pairs = [] if seen is None else [(k, inner) for k, solid in enumerate(seen.cell) for inner in solids_within(solid)]
         if seen is None:
-            return FormulaObjects(c.arm, balls, [], np.zeros((0, 0)))
+            return FormulaObjects(self.arm, balls, [], np.zeros((0, 0)))
         added = seen.added(np.unique(balls.link), np.array([k for k, _ in pairs], dtype=np.int64))
-        return FormulaObjects(c.arm, balls, [inner for _, inner in pairs], added)
+        return FormulaObjects(self.arm, balls, [inner for _, inner in pairs], added)

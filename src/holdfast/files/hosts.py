@@ -1,0 +1,47 @@
+"""Whose request a server of this machine is asked to answer: for which host, and from a page of which.
+
+A browser lets every page of the web send requests to this machine, and tells in ``Origin`` whose page it is; a page that
+gives its own name the address of this machine (DNS rebinding) is told by ``Host``. Other programs send no ``Origin``.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import re
+from collections.abc import Callable, Sequence
+from urllib.parse import urlsplit
+
+_HOST = re.compile(r"(?:[A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
+
+
+def fault(hosts: Sequence[str], origins: Sequence[str], known: Callable[[str], bool]) -> str | None:
+    """What is wrong with a request; None for nothing.
+
+    Args:
+        hosts: Its ``Host`` headers; one is right.
+        origins: Its ``Origin`` headers; one, or none.
+        known: Whether the server answers for the name of a host, which is lower case and without port and brackets.
+    """
+    host = hosts[0] if len(hosts) == 1 else ""
+    name = _name(host)
+    if name is None or not known(name):
+        return "the request names another host"
+    own = (f"http://{host}".lower(), f"https://{host}".lower())
+    if len(origins) > 1 or any(origin.lower() not in own for origin in origins):
+        return "the request comes from a page of another host"
+    return None
+
+
+def is_loopback(name: str) -> bool:
+    """Whether a name, or an address, always means the machine that uses it."""
+    try:
+        return ipaddress.ip_address(name).is_loopback
+    except ValueError:
+        return name == "localhost"
+
+
+def _name(host: str) -> str | None:
+    try:
+        return urlsplit(f"//{host}").hostname if _HOST.fullmatch(host) else None
+    except ValueError:
+        return None
