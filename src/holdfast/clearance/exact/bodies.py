@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Literal
 
 import numpy as np
@@ -66,7 +67,7 @@ class Body:
     def formula(self) -> solids.Primitive | None:
         """What has the same signed distance, if there is a formula."""
         if self.kind == "box":
-            return solids.Box("", self.size)
+            return solids.Box("", np.array(self.size))
         if self.kind == "sphere":
             return solids.Sphere("", *self.size)
         kinds = {"cylinder": solids.Cylinder, "capsule": solids.Capsule}
@@ -81,7 +82,7 @@ class Body:
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
         normal = np.cross(b - a, c - a)
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-        return normal, (normal @ self.vertices.T).max(axis=1)
+        return normal, np.asarray((normal @ self.vertices.T).max(axis=1))
 
     @cached_property
     def inside(self) -> tuple[Array, Array]:
@@ -101,7 +102,7 @@ class Body:
 
     def _corners(self) -> Array:
         if self.kind == "box":
-            return np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * np.array(self.size) / 2
+            return np.array(list(product((-0.5, 0.5), repeat=3))) * self.size
         return self.vertices
 
     @cached_property
@@ -194,6 +195,7 @@ def of_piece(piece: Piece) -> Body:
     Raises:
         ArmError: A mesh is flat.
     """
+    assert piece.kind != "half space"  # no link of an arm is one
     if piece.kind != "mesh":
         return Body(kind=piece.kind, size=piece.size, pose=piece.pose)
     hull = hull_of(piece)

@@ -161,7 +161,8 @@ class Coal:
         if key not in self._pairs:  # holds the bodies, so that no other can have their place in memory
             made = self._coal.ComputeCollision(a[0], b[0]), self._coal.ComputeDistance(a[0], b[0])
             self._pairs[key] = made, (a, b)
-        return self._pairs[key][0]
+        collision, distance = self._pairs[key][0]
+        return collision, distance
 
     def hits(self, a: Any, b: Any) -> bool:
         """See :class:`Engine`."""

@@ -15,7 +15,7 @@ from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.chains import spheres_of
 from holdfast.clearance.exact.bodies import box_about, of_solid, solids_within
 from holdfast.clearance.exact.engines import CONTACT, Engine, for_distances, for_signs
-from holdfast.clearance.exact.meetings import Meetings, parts_of, spheres_within
+from holdfast.clearance.exact.meetings import NEAR, Meetings, parts_of, spheres_within
 from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
 from holdfast.clearance.obstacles import Obstacles
 
@@ -65,7 +65,7 @@ class Exactness:
         (left,) = np.nonzero(bound < CONTACT)
         left = left[self._within.least(q[left]) >= -CONTACT]
         if left.size:
-            found[left] = ~contacts.any(q[left], self._bounds(q[left], CONTACT))
+            found[left] = ~contacts.any(q[left], self._bounds(q[left], near=False))
         return found
 
     def distances(self, q: Array) -> Array:
@@ -78,7 +78,7 @@ class Exactness:
         out = np.full(len(q), np.nan)
         (known,) = np.nonzero(np.isfinite(q).all(axis=1))
         if known.size:
-            out[known] = contacts.distances(q[known], self._bounds(q[known], np.inf))
+            out[known] = contacts.distances(q[known], self._bounds(q[known], near=True))
         return out
 
     @property
@@ -133,11 +133,12 @@ class Exactness:
 
     # ---- bounds --------------------------------------------------------------------------------------------------
 
-    def _bounds(self, q: Array, limit: float) -> Array:
-        """(N, P) as :class:`Meetings` takes them; better ones of hulls only below a limit, m."""
+    def _bounds(self, q: Array, *, near: bool) -> Array:
+        """(N, P) as :class:`Meetings` takes them; better of hulls that may touch, or with ``near`` be nearest."""
         every = self._alone[1](q)
         own = [every[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf) for columns in self._columns.values()]
         around = self._around.distances(q)
+        limit = around.min(axis=(1, 2), initial=np.inf) + NEAR if near else np.full(len(q), CONTACT)
         seen, frames = self.obstacles, self.arm.frames(q)
         for k, (normals, offsets) in self._hulls.items():
             assert seen is not None

@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Truths = NDArray[np.bool_]
 
+NEAR = 0.05  # m: beyond the least bound, what is nearest is hardly found
+
 
 @dataclass(frozen=True, eq=False)
 class Part:
@@ -102,7 +104,7 @@ class Meetings:
             bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
         """
         found, frames = np.zeros(len(q), dtype=np.bool_), self._frames(q)
-        closer = self._closer(frames, bounds, CONTACT)
+        closer = self._closer(frames, bounds, np.full(len(q), CONTACT))
         rows, which = np.nonzero(closer < CONTACT)
         order = np.lexsort((closer[rows, which], rows))
         now, there = -1, set[int]()
@@ -124,7 +126,7 @@ class Meetings:
             bounds: As for :meth:`any`.
         """
         out, frames = np.full(len(q), np.inf), self._frames(q)
-        closer = self._closer(frames, bounds, np.inf)
+        closer = self._closer(frames, bounds, bounds.min(axis=1, initial=np.inf) + NEAR)
         for row, order in enumerate(np.argsort(closer, axis=1).tolist()):
             best, there = np.inf, set[int]()
             for k in order:
@@ -136,8 +138,8 @@ class Meetings:
             out[row] = best
         return out
 
-    def _closer(self, frames: list[tuple[Array, Array]], bounds: Array, limit: float) -> Array:
-        """(N, M) lower bounds of the distances of all meetings, m; where below a limit also those of balls about the bodies."""
+    def _closer(self, frames: list[tuple[Array, Array]], bounds: Array, limit: Array) -> Array:
+        """(N, M) lower bounds of the distances of all meetings, m; below a limit (N,) also of balls about the bodies."""
         out = bounds[:, self._pair_of]
         for k, meeting in enumerate(self._meetings):
             (rows,) = np.nonzero(out[:, k] < limit)
