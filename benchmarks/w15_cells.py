@@ -72,7 +72,7 @@ def in_fcl(cell) -> Ask:
     from holdfast.clearance.exact.meetings import parts_of
 
     engine, arm = Fcl(), panda.ours()
-    parts = [part for part in parts_of(shape()) if part.link >= 0]
+    parts = [part for part in parts_of(arm, shape()) if part.link >= 0]
     made = [engine.make(part.body) for part in parts]
     things = []
     for solid in cell:

@@ -350,6 +350,19 @@ CAPSULES = [
     b"radius: 0.05\nlinks:\n  base: [{from: [0, 0, 0], to: [0, 0, 0.1]}]\n  shoulder: [{from: [0, 0, 0], radius: 0.1}]\n"
     b"ignore: [[base, joint2]]\n"
 ]
+CELLS = [
+    b"name: bench\nmargin: 0.01\nobjects:\n  table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.5, 0, -0.02]}}\n"
+    b"  post: {cylinder: {radius: 0.05, length: 1.0}, pose: {xyz: [0.2, 0.55, 0.5], rpy: [0, 0.1, 0]}}\n"
+    b"  pipe: {capsule: {radius: 0.04, length: 0.6}, pose: {quaternion: [0, 0.6, 0, 0.8]}}\n"
+    b"  ball: {sphere: 0.12, margin: 0.03}\n  ground: {half_space: [0, 0, 1]}\n"
+    b"held: [{capsule: {radius: 0.02, length: 0.15}, pose: {xyz: [0, 0, 0.08]}}]\n"
+    b"may_touch: [[table, base], [ball, joint2]]\narm: {shape: meshes, spheres_to: 0.01, hold: {finger: 0.04}}\n",
+    b"objects:\n  jig: {mesh: jig.stl, scale: 0.001, solid: exact}\n  block: {mesh: block.ply, solid: hull}\n"
+    b"  scan: {points: scan.npy, radius: 0.005, pose: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.1], [0, 0, 0, 1]]}\n"
+    b"  few: {points: [[0, 0, 1], [0, 1, 1]], radius: 0.1}\n"
+    b"  wedge: {mesh: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],"
+    b" faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]}}\n",
+]
 STUDIES = [
     b"name: two arms\nseed: 1\nposes: 200\nchunk: 50\narms: [planar-3r, {file: arm.yaml}]\n"
     b"assess: {indices: [relative-manipulability, manipulability], tasks: [default, position], regions: [default, region.yaml],"
@@ -396,9 +409,60 @@ MJCF = b"""<mujoco model="toy">
   <actuator><motor joint="b" gear="2" ctrlrange="-1 1" ctrllimited="true"/></actuator>
 </mujoco>
 """
+SCENE = b"""<robot name="bench">
+  <link name="table"><collision><origin xyz="0.5 0 0" rpy="0 0 1"/><geometry><box size="1 2 0.1"/></geometry></collision></link>
+  <link name="jig"><collision><geometry><mesh filename="jig.stl" scale="0.001 0.001 0.001"/></geometry></collision></link>
+  <link name="foot"/><link name="post"><collision><geometry><cylinder radius="0.1" length="1"/></geometry></collision></link>
+  <joint name="j" type="fixed"><parent link="table"/><child link="jig"/><origin xyz="0.4 -0.3 0.2" rpy="0 1 0"/></joint>
+  <joint name="f" type="fixed"><parent link="table"/><child link="foot"/></joint>
+  <joint name="m" type="revolute"><parent link="foot"/><child link="post"/><limit lower="-1" upper="1"/></joint>
+</robot>
+"""
 POSES = b"x,y,z,qx,qy,qz,qw,weight\n0,0,1,0,0,0,1,1\n0.5,0,1,0,0,0,1,2\n0.5,0.5,1,0,0,0,1,0.5\n"
 PLAIN = b"x,y,z\n0,0,1\n0.5,0,1\n0.5,0.5,1\n"
 MOTION = b"time_s,joint1_rad,joint2_rad,joint3_rad\n0,0.1,0.2,0.3\n0.5,0.2,0.3,0.4\n1,0.3,0.4,0.5\n"
+
+
+def of_triangles(data: bytes, rng: np.random.Generator) -> bytes:
+    """What is wrong with meshes: cut off, without a triangle, with numbers that none can have."""
+    match int(rng.integers(4)):
+        case 0:
+            return data[: int(rng.integers(len(data) + 1))]
+        case 1:
+            return of_tokens(data, rng)
+        case 2:  # numbers of binary formats: NaN, infinity, huge, another count
+            out, at = bytearray(data), int(rng.integers(max(len(data) - 4, 1)))
+            values = (b"\x00\x00\xc0\x7f", b"\x00\x00\x80\x7f", b"\xff\xff\x7f\x7f", b"\xff\xff\xff\xff", b"\x00\x00\x00\x00")
+            out[at : at + 4] = values[rng.integers(len(values))]
+            return bytes(out)
+        case _:
+            return of_bytes(data, rng)
+
+
+def of_cloud(data: bytes, rng: np.random.Generator) -> bytes:
+    """Arrays that are no clouds."""
+    shape = [(0, 3), (3,), (4, 2), (2, 3, 3), (5, 3), ()][rng.integers(6)]
+    values = np.full(shape, [0.0, np.nan, np.inf, 1e308, -1e9, 40.0][rng.integers(6)])
+    kind = ["f8", "f4", "i8", "c16", "U3", "?", "M8[s]"][rng.integers(7)]
+    out = io.BytesIO()
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        np.save(out, values.astype("f8" if kind == "M8[s]" else kind).astype(kind))
+    return out.getvalue() if rng.random() < 0.7 else of_triangles(data, rng)
+
+
+def solids(root: Path) -> dict[str, list[bytes]]:
+    """Files of a ring in millimetres in every format, written into a folder beside a block and a cloud."""
+    import trimesh
+
+    ring = trimesh.creation.torus(200, 50, major_sections=8, minor_sections=6)
+    ring.export(root / "jig.stl")
+    trimesh.creation.box((0.1, 0.2, 0.3)).export(root / "block.ply")
+    np.save(root / "scan.npy", np.random.default_rng(1).uniform(-1, 1, (20, 3)))
+    found = {kind: [ring.export(file_type=kind)] for kind in ("stl", "obj", "ply", "glb")}
+    found["stl"].append(ring.export(file_type="stl_ascii"))
+    found["ply"].append(ring.export(file_type="ply", encoding="ascii"))
+    return {kind: [x.encode() if isinstance(x, str) else x for x in all_] for kind, all_ in found.items()}
 
 
 def kinds(root: Path) -> dict[str, Kind]:
@@ -408,6 +472,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast import engine as study
     from holdfast.arms.serial import to_dict
     from holdfast.assessment import load
+    from holdfast.cell import Mesh, Points
     from holdfast.clearance import Capsules
     from holdfast.cli.options import read_weights
     from holdfast.engine import Threads
@@ -425,6 +490,15 @@ def kinds(root: Path) -> dict[str, Kind]:
         arm = arms.resolve(str(path))
         return arm.fingerprint, json.dumps(to_dict(arm)), arm.forward_kinematics(np.zeros(arm.n))
 
+    def cell_of(path: Path) -> object:
+        read = hf.Cell.load(path)
+        again = hf.Cell.from_dict(read.to_dict(), path.parent)
+        return read.digest == again.digest, str(read), [solid.surface for solid in read if isinstance(solid, Mesh)]
+
+    def mesh_of(path: Path) -> object:
+        return [Mesh("jig", path, scale=0.001, solid=solid).surface.volume for solid in ("hull", "exact")]
+
+    meshes = solids(root)
     (root / "arm.yaml").write_bytes(DH)
     (root / "region.yaml").write_bytes(REGIONS[0])
     (root / "poses.csv").write_bytes(PLAIN)
@@ -461,6 +535,15 @@ def kinds(root: Path) -> dict[str, Kind]:
         "region": Kind(REGIONS, of_yaml, hf.Region.load, root / "weighted" / "in.yaml"),
         "path": Kind(PATHS, of_yaml, read_path, root / "in.yaml"),
         "capsules": Kind(CAPSULES, of_yaml, lambda path: Capsules.load(path, toy), root / "in.yaml"),
+        "cell": Kind(CELLS, of_yaml, cell_of, root / "in.yaml"),
+        "cell in URDF": Kind([SCENE], of_xml, hf.Cell.load, root / "in.urdf"),
+        **{f"mesh in {kind}": Kind(all_, of_triangles, mesh_of, root / f"in.{kind}") for kind, all_ in meshes.items()},
+        "cloud": Kind(
+            [(root / "scan.npy").read_bytes()],
+            of_cloud,
+            lambda path: Points("scan", path, radius=0.01).centres.sum(),
+            root / "in.npy",
+        ),
         "study": Kind(STUDIES, of_yaml, read_study, root / "in.yaml"),
         "protocol": Kind([teleop.read_protocol().text().encode()], of_yaml, teleop.read_protocol, root / "in.yaml"),
         "texts": Kind([texts.ENGLISH.read_bytes()], of_yaml, texts.read, root / "in.yaml"),

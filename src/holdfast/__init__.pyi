@@ -16,7 +16,9 @@ from holdfast.assessment import compare_assessments as compare_assessments
 from holdfast.assessment import load as load
 from holdfast.cell import Cell as Cell
 from holdfast.clearance import Capsules as Capsules
+from holdfast.clearance import CellCheck as CellCheck
 from holdfast.clearance import Clearance as Clearance
+from holdfast.clearance import check_cell as check_cell
 from holdfast.convergence import ConvergenceMap as ConvergenceMap
 from holdfast.convergence import LawChoice as LawChoice
 from holdfast.convergence import LawComparison as LawComparison

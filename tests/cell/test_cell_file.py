@@ -207,6 +207,8 @@ def test_clouds_that_are_none():
         Points("scan", np.full((2, 3), np.nan), radius=0.01)
     with pytest.raises(hf.InputError, match="millimetres"):
         Points("scan", [[0, 0, 0], [900, 0, 0]], radius=0.01)
+    with pytest.raises(hf.InputError, match="from the origin of its own frame"):
+        Points("scan", [[1e300, 0, 0]], radius=0.01)
     with pytest.raises(hf.InputError, match="radius"):
         Points("scan", np.zeros((2, 3)), radius=0.0)
 

@@ -64,7 +64,8 @@ def clearance(request, generator):
 
 @pytest.fixture(scope="module")
 def panda():
-    return Clearance(arms.load("panda"))
+    arm = arms.load("panda")
+    return Clearance(arm, Capsules.along(arm))
 
 
 def test_pinocchio_and_coal_agree_on_random_arms(clearance, rng):
@@ -175,7 +176,7 @@ def test_the_smallest_pair_is_the_clearance(clearance, rng):
 
 def test_where_the_arm_stands_and_how_thick_it_is(panda, rng):
     q = oracles.inside(panda.arm, rng, 30)
-    elsewhere = Clearance(panda.arm.with_base(oracles.random_pose(rng)))
+    elsewhere = Clearance(panda.arm.with_base(oracles.random_pose(rng)), panda.capsules)
     np.testing.assert_array_equal(elsewhere(q), panda(q))
     radius = panda.capsules.parts[0].radius
     thin = Clearance(panda.arm, Capsules.along(panda.arm, radius / 2))

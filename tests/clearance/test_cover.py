@@ -16,6 +16,8 @@ from holdfast.clearance.shape import Shape, corners
 from holdfast.errors import ArmError, InputError
 from oracles import random_pose
 
+FAR = np.array([[1.0, 0, 0, 5], [0, 1, 0, 5], [0, 0, 1, 5], [0, 0, 0, 1]])
+
 ARM = """
 <robot name="three"><link name="foot"><collision><geometry>{foot}</geometry></collision></link>
 <link name="upper"><collision><origin xyz="0 0 0.2" rpy="0.1 0 0"/>
@@ -260,3 +262,57 @@ def test_pairs_that_an_srdf_file_disables_are_not_checked(panda, tmp_path):
     elsewhere.write_text("<robot name='three'><disable_collisions link1='foot' link2='tip'/></robot>")
     three = hf.Arm.from_urdf(tmp_path / "three.urdf", srdf=elsewhere)
     assert len(hf.Clearance(three, shape_of(three)).pair_names) == 1
+
+
+def test_what_is_held_moves_with_the_last_link(panda, rng):
+    arm, _, capsules = panda
+    pose = random_pose(rng)
+    pose[:3, 3] = [0, 0, 0.1]
+    held = [Capsule("bar", 0.02, 0.6, pose=pose), Box("part", [0.1, 0.06, 0.3])]
+    cell = hf.Cell([Sphere("ball", 0.1, pose=np.eye(4))], held=held, may_touch=[("ball", "base")])
+    clearance = hf.Clearance(arm, capsules, cell)
+    extra = clearance.capsules.parts[len(capsules) :]
+    assert clearance.capsules.own == capsules
+    assert clearance.capsules.held == len(extra)
+    assert {part.link for part in extra} == {arm.n - 1}
+    q = rng.uniform(arm.lower, arm.upper, (20, arm.n))
+    for tool, row in zip(arm.forward_kinematics(q), clearance.by_pair(q), strict=True):
+        ends = [(tool @ pose @ np.array([0, 0, z, 1]))[:3] for z in np.linspace(-0.3, 0.3, 2001)]
+        exact = np.linalg.norm(ends, axis=1).min() - 0.12
+        assert row[clearance.pair_names.index("panda_joint7 & ball")] <= exact + 1e-9
+    box = np.array([[x, y, z] for x in (-0.05, 0.05) for y in (-0.03, 0.03) for z in (-0.15, 0.15)])
+    points = within(box, rng) @ arm.tool[:3, :3].T + arm.tool[:3, 3]
+    assert depths(points, hf.Capsules(extra), arm.n - 1).min() >= 0
+    names = [name for name in clearance.pair_names if "joint7 (4)" in name]
+    # Against its neighbour as well, which the link itself meets by construction; never against its own link.
+    assert "panda_joint6 (1) & panda_joint7 (4)" in names
+    assert not any(name.count("panda_joint7") > 1 for name in names)
+    assert clearance.capsules.describe(arm) == f"{capsules.source}; {len(extra)} more about what is held"
+    assert hf.Capsules.from_dict(clearance.capsules.to_dict(arm), arm) == capsules
+    free = clearance.with_cell(hf.Cell(cell.objects, may_touch=cell.may_touch))
+    assert free.capsules == capsules
+    assert free.pair_names == hf.Clearance(arm, capsules, free.cell).pair_names
+    assert clearance.with_cell(cell.with_poses({"ball": random_pose(rng)})).capsules is clearance.capsules
+    assumed = hf.Capsules.along(arm)
+    assert hf.Clearance(arm, assumed, cell).capsules.assumed(arm)
+
+
+def test_a_cell_says_which_shape_an_arm_has_in_it(panda, tmp_path):
+    arm, _, capsules = panda
+
+    def shape(**options):
+        return hf.Clearance(arm, cell=hf.Cell([Sphere("ball", 0.1, pose=FAR)], **options)).capsules
+
+    assert shape() == capsules
+    assert shape(shape="assumed") == hf.Capsules.along(arm)
+    assert len(shape(spheres_to=0.006)) > len(capsules)
+    assert shape(hold={"panda_finger_joint1": 0.04}) != capsules
+    (tmp_path / "own.yaml").write_text("radius: 0.05")
+    assert shape(shape=str(tmp_path / "own.yaml")) == hf.Capsules.along(arm, 0.05)
+    other = arms.load("xarm7")
+    with pytest.raises(
+        InputError, match="asks for the meshes of 'xarm7', and no file gives it collision shapes; give their fol"
+    ):
+        hf.Clearance(other, cell=hf.Cell([], shape="meshes"))
+    with pytest.raises(ArmError, match="finger9"):
+        shape(hold={"finger9": 0.04})

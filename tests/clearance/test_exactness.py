@@ -148,10 +148,10 @@ def test_a_cloud_is_the_nearest_of_its_balls(panda, meshes, rng):
 
 
 def test_spheres_within_a_body_are_within_it(panda):
-    _, capsules = panda
+    arm, capsules = panda
     from holdfast.clearance.exact.meetings import parts_of
 
-    bodies = [part.body for part in parts_of(capsules)] + [of_capsule(Capsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))]
+    bodies = [part.body for part in parts_of(arm, capsules)] + [of_capsule(Capsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))]
     kinds = set()
     for body in bodies:
         kinds.add(body.kind)

@@ -7,6 +7,8 @@ import pytest
 
 import holdfast as hf
 from holdfast import Capsules, Clearance, arms
+from holdfast.cli.clearance import read_clearance
+from holdfast.errors import InputError
 
 CLOSE = "box: {center: [0.2, 0.1, 0], size: [0.5, 0.5, 0]}\n"
 POSE = "0.3,0.2,0,0,0,0"
@@ -176,3 +178,27 @@ def test_a_cell_that_cannot_be_used_is_one_sentence(refused, bench, tmp_path):
 def _with(file, line):
     file.write_text(f"{BENCH}{line}\n")
     return file
+
+
+def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
+    text = "<link name='{}'><collision><geometry><mesh filename='package://gone/{}.stl'/></geometry></collision></link>"
+    joint = "<joint name='j{}' type='revolute'><parent link='{}'/><child link='{}'/><origin xyz='0 0 0.4'/><axis xyz='{}'/>"
+    joint += "<limit lower='-2' upper='2' velocity='1' effort='1'/></joint>"
+    names = ["link0", "link1", "link2", "link3"]
+    links = "".join(text.format(name, name) for name in names)
+    joints = "".join(joint.format(k, names[k], names[k + 1], axis) for k, axis in enumerate(("0 0 1", "0 1 0", "1 0 0")))
+    file, meshes = tmp_path / "own.urdf", tmp_path / "meshes"
+    file.write_text(f"<robot name='own'>{links}{joints}</robot>")
+    meshes.mkdir()
+    given = arms.builtin.DATA.joinpath("example-robot-data/robots/panda_description/meshes/collision")
+    for name in names:
+        (meshes / f"{name}.stl").write_bytes(given.joinpath(f"{name}.stl").read_bytes())
+    arm = arms.resolve(str(file))
+    options = (arm, True, None, None, None, True)
+    assert read_clearance(*options).capsules.describe(arm).endswith(" along each link (package://gone/link0.stl was not read)")
+    found = read_clearance(*options, meshes=meshes)
+    assert found.capsules.describe(arm).startswith("cover of the collision shapes of own.urdf: ")
+    with pytest.raises(InputError, match="cannot be found or is not a folder"):
+        read_clearance(*options, meshes=tmp_path / "none")
+    with pytest.raises(InputError, match="'planar-3r' is from no URDF file"):
+        read_clearance(arms.load("planar-3r"), *options[1:], meshes=meshes)

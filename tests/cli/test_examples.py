@@ -22,6 +22,7 @@ from holdfast.present.results import printed, printed_each
 
 FILES = {
     "path.yaml": "line: {from: {xyz: [0.45, -0.1, 0.5]}, to: {xyz: [0.45, 0.1, 0.5]}}\ntiming: {duration: 2}\n",
+    "bench.yaml": "objects: {table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.6, 0, -0.02]}}}\n",
     "cell.yaml": "box: {center: [0.5, 0, 0.5], size: 0.1, rpy_center: [180, 0, 0], rpy_size: 10}\nangles: deg\n",
 }
 STUDY = "study new tools.yaml --arm planar-3r --poses 64 --chunk 32"

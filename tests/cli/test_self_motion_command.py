@@ -6,6 +6,8 @@ import matplotlib.image
 import numpy as np
 import pytest
 
+import holdfast as hf
+
 
 def test_the_curves_and_bounds_of_a_planar_arm(cli, ask, tmp_path):
     data = ask("self-motion", "planar-3r", "--target", "1.5,1.5", "--bounds")
@@ -97,3 +99,20 @@ def test_errors(cli, arguments, message):
     code, out, err = cli(*arguments)
     assert (code, out) == (2, "")
     assert message in err
+
+
+def test_the_command_cuts_curves_where_they_meet_a_cell(cli, ask, tmp_path):
+    cell = tmp_path / "bench.yaml"
+    cell.write_text("name: bench\nobjects: {post: {sphere: 0.2, pose: {xyz: [0.4, 0.9, 0]}}}\n")
+    call = ("self-motion", "planar-3r", "--target", "1.2,0.4", "--cell", cell, "--radius", 0.03, "--no-clearance")
+    data = ask(*call, "--bounds")
+    arm = hf.arms.load("planar-3r")
+    slim = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), hf.Cell.load(cell), itself=False)
+    found = hf.self_motion(arm, [1.2, 0.4], "planar", clearance=slim)
+    assert [c["barred_by"] for c in data["components"]] == [list(c.barred_by) for c in found.components]
+    assert data["bounds"] == {name: [list(x) for x in arcs] for name, arcs in zip(arm.joint_names, found.arcs(), strict=True)}
+    assert data["clearance"]["cell"]["sha256"] == hf.Cell.load(cell).digest
+    code, text, err = cli(*call, "--out", tmp_path / "out")
+    assert (code, err) == (0, "")
+    assert "& post" in text
+    assert "bench" in (tmp_path / "out" / "report.html").read_text()

@@ -30,8 +30,8 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison Optima "
-        "PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison "
+        "Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
@@ -48,6 +48,7 @@ VALUES = named(
         "arms": "Builtin DHTable",
         "assessment": "Structure Upgrade",
         "control": "Deviations",
+        "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
         "engine": "CellStatus Damage Result",
@@ -58,6 +59,7 @@ VALUES = named(
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
         "recovery": "Leg RestOfPath RowsGivenUp",
+        "shapes": "Piece",
         "simulation": "Path",
         "solvers": "Component FibrePath",
         "teleop": "Binning CPM Entry Next RecordedCycles Subject TaskBank Trials",
@@ -68,8 +70,9 @@ THAWED = {"probability.Distribution"}  # values that are not frozen yet
 # Arms, tasks, settings: what an analysis is asked with.
 INPUTS = named(
     {
-        "": "Arm Capsules DH DesignSpace Joint Link PointToPoint Region Servos Task",
+        "": "Arm Capsules Cell DH DesignSpace Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
+        "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
         "control": "Law",
         "convergence": "Places",
@@ -109,7 +112,21 @@ def test_every_public_dataclass_is_in_one_list():
 
 def test_every_function_returns_what_is_in_a_list():
     listed = {name.rpartition(".")[2] for name in [*RESULTS, *VALUES, *INPUTS]}
-    other = {"Any", "Arcs", "Array", "Callable", "Figure", "Indices", "InverseKinematics", "Iterator", "K", "Markup"}
+    other = {
+        "Any",
+        "Arcs",
+        "Array",
+        "Callable",
+        "Clearance",
+        "Missing",
+        "frozenset",
+        "Figure",
+        "Indices",
+        "InverseKinematics",
+        "Iterator",
+        "K",
+        "Markup",
+    }
     other |= {
         "NDArray",
         "P",

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import io
+import warnings
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -21,6 +23,7 @@ Array = NDArray[np.float64]
 Kind = Literal["exact", "hull"]
 
 LARGEST = 50.0  # m: an object beyond that is in another unit
+_FARTHEST = 1e6  # m
 
 
 @dataclass(frozen=True)
@@ -192,6 +195,11 @@ def _pair(shape: Any, name: str) -> tuple[Any, Any]:
 
 
 def _in_metres(points: Array, name: str, question: str) -> None:
+    far = float(np.abs(points).max())
+    if far > _FARTHEST:
+        raise InputError(
+            f"object '{name}' is {far:.4g} m from the origin of its own frame; give lengths in metres from a place nearby"
+        )
     size = float(np.ptp(points, axis=0).max())
     if size > LARGEST:
         raise InputError(f"object '{name}' is {size:.4g} m large, more than {LARGEST:g} m; {question}")
@@ -213,14 +221,14 @@ def _hull(found: mesh.Triangles, name: str) -> mesh.Triangles:
 
 
 def _array(path: Path, name: str) -> tuple[Any, bytes]:
-    import io
-
     with reading.guarded(f"object '{name}': '{path.name}'", "give the path of a .npy file that exists"):
         content = reading.raw(path)
     try:
-        # Without pickle: a file of points runs no code.
-        return np.load(io.BytesIO(content), allow_pickle=False), content
-    except (ValueError, EOFError, OSError, SyntaxError, TypeError, MemoryError, OverflowError) as error:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            # Without pickle: a file of points runs no code.
+            return np.load(io.BytesIO(content), allow_pickle=False), content
+    except Exception as error:  # its header is Python, which fails in every way
         raise InputError(f"object '{name}': '{path.name}' is damaged or not a .npy file; write it with numpy.save") from error
 
 

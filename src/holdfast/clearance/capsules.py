@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -44,6 +44,9 @@ Point = tuple[float, float, float]
 
 BASE = -1
 """The link that is still, in ``Capsule.link``."""
+
+COVER = "cover of the collision shapes of "
+"""How ``source`` begins of capsules that were made to contain the shapes of a file."""
 
 _SHARE = 1 / 20  # default radius over the sum of the link lengths: an assumption
 _NUMBERED = re.compile(r" \(\d+\)$")
@@ -98,6 +101,7 @@ class Capsules:
         apart: Pairs of positions in ``parts``, the smaller first, that are never checked against each other.
         source: Where they come from, for people; empty for those that were given or assumed.
         shape: What they cover, if that is known; else they are the shape itself. Files and results do not hold it.
+        held: How many of the last parts are no part of the arm but something that it holds.
     """
 
     parts: tuple[Capsule, ...]
@@ -105,6 +109,7 @@ class Capsules:
     apart: tuple[tuple[int, int], ...] = field(default=(), kw_only=True)
     source: str = field(default="", compare=False, kw_only=True)
     shape: Shape | None = field(default=None, compare=False, repr=False, kw_only=True)
+    held: int = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", tuple(self.parts))
@@ -147,11 +152,21 @@ class Capsules:
         width = assumed if radius is None else radius
         return cls(tuple(part for link in range(BASE, arm.n) for part in along_link(arm, link, width)))
 
+    @property
+    def own(self) -> Capsules:
+        """Those of the arm itself, without what it holds."""
+        return replace(self, parts=self.parts[: len(self.parts) - self.held], held=0) if self.held else self
+
     def radius_along(self, arm: Arm) -> float | None:
-        """The radius, m, if these are the capsules of :meth:`along` and nothing is ignored; else None."""
+        """The radius, m, if the arm's own are the capsules of :meth:`along` and nothing is ignored; else None."""
         radius = self.parts[0].radius if self.parts else None
-        same = radius is not None and np.linalg.norm(_ends(arm)) >= _POINT and self == Capsules.along(arm, radius)
+        same = radius is not None and np.linalg.norm(_ends(arm)) >= _POINT and self.own == Capsules.along(arm, radius)
         return radius if same else None
+
+    @property
+    def covers(self) -> bool:
+        """True if they were made to contain the collision shapes of a file; see :func:`holdfast.clearance.cover.cover_of`."""
+        return self.source.startswith(COVER)
 
     def assumed(self, arm: Arm) -> bool:
         """True if the radius along the links is the one that :meth:`along` assumes."""
@@ -160,12 +175,13 @@ class Capsules:
 
     def describe(self, arm: Arm) -> str:
         """What they are and where they come from, for people."""
-        if self.source:
-            return self.source
+        own = len(self) - self.held
         radius = self.radius_along(arm)
-        if radius is None:
-            return f"{len(self)} capsule{'' if len(self) == 1 else 's'}, as given"
-        return f"{'assumed' if self.assumed(arm) else 'given'} radius {radius:.3g} m along each link"
+        text = f"{own} capsule{'' if own == 1 else 's'}, as given"
+        if radius is not None:
+            text = f"{'assumed' if self.assumed(arm) else 'given'} radius {radius:.3g} m along each link"
+        held = f"; {self.held} more about what is held" if self.held else ""
+        return (self.source or text) + held
 
     @classmethod
     @checked
@@ -216,7 +232,9 @@ class Capsules:
         return cls(tuple(parts), tuple(links), apart=tuple(apart), source=told.source)
 
     def to_dict(self, arm: Arm) -> dict[str, Any]:
-        """Everything as JSON types, links by name: a file's keys and values."""
+        """Everything of the arm itself as JSON types, links by name: a file's keys and values."""
+        if self.held:
+            return self.own.to_dict(arm)
         links: dict[str, list[dict[str, Any]]] = {}
         for part in self.parts:
             entry = {"from": list(part.start), "to": list(part.end), "radius": part.radius}

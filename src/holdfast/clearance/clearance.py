@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
 from itertools import combinations
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -42,15 +43,18 @@ class Clearance:
     Between two capsules a negative value is minus the depth: the distance between the axes less the two radii. The distance
     from an object of the cell is a lower bound: that of the spheres that cover the capsules of a link.
 
-    Not checked are capsules of one link or of adjacent links, links under ``ignore``, and capsules that touch by
-    construction: those that overlap in at least 95 % of 512 configurations within the limits (the first 512 points of the
-    unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These are pairs with nothing but short links
-    between them, such as the two sides of an elbow: that they meet says nothing. The default collision matrix of the
-    MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software Eng. Robotics 5(1)).
+    Not checked are capsules of one link, of adjacent links and of links under ``ignore`` (what is held is checked against all
+    links but the last), and capsules that touch by construction: those that overlap in at least 95 % of 512 configurations
+    within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These
+    are pairs with nothing but short links between them, such as the two sides of an elbow: that they meet says nothing. The
+    default collision matrix of the MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software
+    Eng. Robotics 5(1)).
 
     Args:
         arm: The arm.
-        capsules: Its shape; :meth:`Capsules.along` if not given, whose radius is an assumption.
+        capsules: Its shape; if not given, a cover of the collision shapes of the arm's file
+            (:func:`holdfast.clearance.cover.shape_of`), and :meth:`Capsules.along`, whose radius is an assumption, where there
+            are none. What the cell says to be held is added to the last link.
         cell: The objects around it; none if not given. Objects are never adjacent to a link and never left out: only
             ``may_touch`` of the cell takes a pair away.
         itself: Look at the arm's own links as well, one against the other.
@@ -72,7 +76,11 @@ class Clearance:
     @checked
     def __init__(self, arm: Arm, capsules: Capsules | None = None, cell: Cell | None = None, *, itself: bool = True) -> None:
         self.arm = arm
-        self.capsules = Capsules.along(arm) if capsules is None else capsules
+        if capsules is None or (cell is not None and cell.held):
+            from holdfast.clearance.cover import shape_in  # takes long to import
+
+            capsules = shape_in(arm, cell, capsules)
+        self.capsules = capsules.own if cell is None or not cell.held else capsules
         highest = max((link for link in self._links + [x for p in self.capsules.ignore for x in p]), default=-1)
         if highest >= arm.n:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
@@ -90,7 +98,11 @@ class Clearance:
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if seen is None else seen.margins])
 
     def with_cell(self, cell: Cell | None) -> Clearance:
-        """The same clearance in another cell; the arm's own pairs are not chosen again."""
+        """The same clearance in another cell; the arm's own pairs are chosen again only where it holds something else."""
+        before, after = (() if x is None else x.held for x in (self.cell, cell))
+        return self._in(cell) if before == after else Clearance(self.arm, self.capsules, cell, itself=self.itself)
+
+    def _in(self, cell: Cell | None) -> Clearance:
         other = copy(self)
         vars(other).pop("_exactness", None)
         other._meet(cell)
@@ -98,7 +110,7 @@ class Clearance:
 
     @classmethod
     def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
-        """What is kept where nothing else is said: capsules of an assumed radius, :meth:`Capsules.along`.
+        """What is kept where nothing else is said: the arm's own shape, as ``capsules`` has it where they are not given.
 
         The links of an arm that moves in a plane lie beside each other, not in one plane: they are not checked against each
         other, and without a cell there is nothing to keep: None.
@@ -117,7 +129,10 @@ class Clearance:
         links = self._links
         by_link = sorted(range(len(links)), key=links.__getitem__)
         different = [(a, b) for a, b in combinations(by_link, 2) if links[a] != links[b]]
+        held = len(links) - self.capsules.held  # from there on; what is said about links was not said about that
         for a, b in different:
+            if b >= held:
+                continue
             low, high = links[a], links[b]
             if high - low == 1:
                 reasons[a, b] = "adjacent links"
@@ -216,7 +231,7 @@ class Clearance:
     @cached_property
     def alone(self) -> Clearance:
         """The same without the cell: what programs are made of, so that for a changed cell none is made anew."""
-        return self if self.cell is None else self.with_cell(None)
+        return self if self.cell is None else self._in(None)
 
     @cached_property
     @recalled
@@ -282,30 +297,26 @@ class Clearance:
 
     @cached_property
     def _exactness(self) -> Exactness:
-        pairs, alone = [ignored.pair for ignored in self.ignored], self.alone
-        return Exactness(self.arm, self.capsules, (alone, alone.by_pair), self.pairs, pairs, self.obstacles)
+        ignored, alone, held = [x.pair for x in self.ignored], self.alone, () if self.cell is None else self.cell.held
+        return Exactness(self.arm, self.capsules, (alone, alone.by_pair), self.pairs, ignored, self.obstacles, held)
 
     def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
-        """Whether no checked link touches another or an object, (N,) or a scalar; exact, of the bodies that the capsules cover.
+        """Whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules cover.
 
         Margins do not count, what is nearer than 1e-6 m may count as touching, and a row that is not finite is not clear.
 
         Raises:
-            HoldfastError: Neither python-fcl nor coal is installed.
+            HoldfastError: Neither python-fcl nor coal is installed; so for ``exact``.
         """
-        rows, single = as_configurations(self.arm, q)
-        values = self._exactness.clear(rows)
-        return values[0] if single else values
+        return self._of_rows(q, self._exactness.clear)
 
     def exact(self, q: ArrayLike) -> Array:
-        """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is.
+        """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is."""
+        return self._of_rows(q, self._exactness.distances)
 
-        Raises:
-            HoldfastError: Neither coal nor python-fcl is installed.
-        """
+    def _of_rows(self, q: ArrayLike, ask: Callable[[Array], Any]) -> Any:
         rows, single = as_configurations(self.arm, q)
-        values = self._exactness.distances(rows)
-        return values[0] if single else values
+        return ask(rows)[0] if single else ask(rows)
 
     @property
     def exact_by(self) -> str:
@@ -330,9 +341,7 @@ class Clearance:
         Where two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two
         axes cross, which is a kink, and NaN where q is.
         """
-        rows, single = as_configurations(self.arm, q)
-        g = self.nearest(rows)[1]
-        return g[0] if single else g
+        return self._of_rows(q, lambda rows: self.nearest(rows)[1])
 
     def nearest(self, q: Array) -> tuple[Array, Array]:
         """Room (N,) m and its gradient (N, n) of configurations (N, n)."""

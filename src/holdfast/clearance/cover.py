@@ -8,10 +8,10 @@ depth of what its hull fills in.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations, groupby
-from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +19,15 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.clearance.capsules import Capsule, Capsules, along_link, assumed_radius, link_name
+from holdfast.cell import solids
+from holdfast.cell.cell import Cell
+from holdfast.cell.solids import Solid
+from holdfast.clearance.capsules import COVER, Capsule, Capsules, along_link, assumed_radius, link_name
 from holdfast.clearance.enclosing import capsule_about, directions, main_axes
 from holdfast.clearance.shape import Shape, corners, hull_of
-from holdfast.errors import InputError
+from holdfast.errors import ArmError, InputError
 from holdfast.kernels.recall import recalled_data
-from holdfast.shapes.pieces import Piece
+from holdfast.shapes.pieces import Kind, Piece
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
@@ -77,10 +80,7 @@ def _unchecked(shape: Shape, owners: list[str], others: list[str]) -> bool:
 
 def _told(shape: Shape, arm: Arm, count: int, mean: float, most: float) -> str:
     capsules = f"{count} capsule{'' if count == 1 else 's'}"
-    text = (
-        f"cover of the collision shapes of {shape.source}: {capsules}, "
-        f"{1e3 * mean:.0f} mm beyond their hulls in the mean, {1e3 * most:.0f} mm at most"
-    )
+    text = f"{COVER}{shape.source}: {capsules}, {1e3 * mean:.0f} mm beyond their hulls in the mean, {1e3 * most:.0f} mm at most"
     if shape.missing:
         links = ", ".join(link_name(arm, link) for link in sorted({item.link for item in shape.missing}))
         what = shape.missing[0].what
@@ -253,16 +253,90 @@ def _spread(points: Array, faces: Triangles) -> Array:
 
 
 @checked
-def shape_of(
-    arm: Arm, meshes: str | Path | None = None, *, spheres_to: float = SPHERES_TO, hold: dict[str, float] | None = None
-) -> Capsules:
-    """The shape of an arm where nothing else is said: the cover of its file's collision shapes, else :meth:`Capsules.along`.
+def shape_of(arm: Arm, cell: Cell | None = None) -> Capsules:
+    """The shape of an arm where no other is given: the cover of its file's collision shapes, else :meth:`Capsules.along`.
 
     Args:
         arm: The arm.
-        meshes: Folder with the files of meshes; see :func:`holdfast.shapes.meshes.find_mesh`.
-        spheres_to: As :func:`cover_of` has it.
-        hold: Where joints beside the chain are held, rad or m; as the arm was read if not given.
+        cell: May say which of the two it is to be, or name a capsule file; how far the cover may reach beyond the shape; and
+            where joints beside the chain are held.
+
+    Raises:
+        InputError: The cell asks for the shape of the arm's file, which gives none that can be read.
+        ArmError: The cell names a capsule file that is wrong or a joint that the arm's file lacks.
     """
-    shape = Shape.of(arm, meshes, hold=hold)
-    return cover_of(shape, arm, spheres_to) if len(shape) else Capsules.along(arm)
+    wanted = "" if cell is None else cell.shape
+    if wanted == "assumed":
+        return Capsules.along(arm)
+    if wanted not in ("", "meshes"):
+        return Capsules.load(wanted, arm)
+    why = ""
+    try:
+        shape = Shape.of(arm, hold={} if cell is None else cell.hold)
+        if len(shape):
+            target = None if cell is None else cell.spheres_to
+            return cover_of(shape, arm, SPHERES_TO if target is None else target)
+        why = f"{shape.missing[0].what} was not read" if shape.missing else ""
+    except ArmError as error:
+        if wanted or (cell is not None and cell.hold):
+            raise
+        why = str(error)
+    if wanted:
+        raise InputError(
+            f"the cell asks for the meshes of '{arm.name}', and {why or 'no file gives it collision shapes'}; "
+            "give their folder by --meshes (meshes= in Python), or say shape: assumed"
+        )
+    assumed = Capsules.along(arm)
+    return replace(assumed, source=f"{assumed.describe(arm)} ({why})") if why else assumed
+
+
+def shape_in(arm: Arm, cell: Cell | None, capsules: Capsules | None = None) -> Capsules:
+    """What is looked at of an arm and of what it holds in a cell: given capsules, else those of :func:`shape_of`."""
+    own = shape_of(arm, cell) if capsules is None else capsules
+    return own.own if cell is None else holding(own, arm, cell.held, cell.spheres_to)
+
+
+def holding(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: float | None = None) -> Capsules:
+    """The capsules of an arm, and those about what it holds instead of what they held before.
+
+    Args:
+        capsules: The arm's.
+        arm: The arm.
+        held: Boxes, cylinders, capsules and spheres with their poses in the tool's frame; they move with the last link.
+        spheres_to: As :func:`cover_of` has it.
+    """
+    own = capsules.own
+    if not held:
+        return own
+    nothing = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
+    pieces = tuple(
+        Piece(
+            link=arm.n - 1,
+            owner="held",
+            kind=cast(Kind, type(solid).__name__.lower()),
+            name=solid.name,
+            size=_size(solid),
+            pose=arm.tool @ solid.pose,
+            vertices=nothing[0],
+            faces=nothing[1],
+        )
+        for solid in held
+    )
+    rows, _, _ = _fitted(Shape(pieces=pieces, missing=(), source="held"), SPHERES_TO if spheres_to is None else spheres_to)
+    parts = [Capsule(link, start, end, radius=radius) for link, start, end, radius, _ in rows]
+    return replace(own, parts=(*own.parts, *parts), held=len(parts))
+
+
+def _size(solid: Solid) -> tuple[float, ...]:
+    """As pieces have it.
+
+    Raises:
+        InputError: The solid is none that can be held.
+    """
+    if isinstance(solid, solids.Box):
+        return tuple(float(x) for x in solid.size)
+    if isinstance(solid, solids.Cylinder | solids.Capsule):
+        return (solid.radius, solid.length)
+    if isinstance(solid, solids.Sphere):
+        return (solid.radius,)
+    raise InputError(f"'{solid.name}' cannot be held; hold a box, cylinder, capsule or sphere")

@@ -2,11 +2,12 @@
 
 The arm is covered by spheres (:mod:`holdfast.clearance.chains`), so what is said to be clear is clear. Objects are taken in
 blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are looked
-up in their grids (:mod:`holdfast.clearance.gridded`).
+up in their grids (:mod:`holdfast.clearance.objects.gridded`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,13 +17,13 @@ from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.cell.meshes import Gridded
-from holdfast.cell.solids import Primitive
+from holdfast.cell.solids import Primitive, Solid
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
 from holdfast.clearance.exact.bodies import box_about
-from holdfast.clearance.gridded import GriddedObjects
 from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
+from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -114,15 +115,12 @@ class Obstacles:
         Raises:
             InputError: It touches an object that it may not touch.
         """
-        still = self.balls.link == BASE
-        centre = self.balls.centre[still] @ self.arm.base[:3, :3].T + self.arm.base[:3, 3]
         for k, solid in enumerate(self.cell):
-            if self.apart[0, k] or not still.any():
+            margin = self.cell.margin_of(solid)
+            # A box about it is asked first: for what is far away no grid need be made.
+            if self.apart[0, k] or base_gaps(self.arm, self.balls, [box_about(solid)])[0] >= margin:
                 continue
-            margin, radius = self.cell.margin_of(solid), self.balls.radius[still]
-            if (box_about(solid).signed_distance(centre) - radius >= margin).all():
-                continue  # no grid need be made for that
-            gap = float((solid.signed_distance(centre) - radius).min())
+            (gap,) = base_gaps(self.arm, self.balls, [solid])
             if gap < margin:
                 near = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
                 raise InputError(
@@ -222,3 +220,10 @@ class Obstacles:
         reach = np.linalg.norm(self.balls.centre, axis=1)
         far = np.array([reach[self.balls.link == link].max() for link in self.links])
         return np.repeat(changes_from_outside(self.arm, self.links, far, low, high), len(self.cell), axis=0)
+
+
+def base_gaps(arm: Arm, balls: Balls, objects: Iterable[Solid]) -> list[float]:
+    """A lower bound of the distance of the base from each object, m; infinite if no sphere covers the base."""
+    still = balls.link == BASE
+    centre = balls.centre[still] @ arm.base[:3, :3].T + arm.base[:3, 3]
+    return [float((solid.signed_distance(centre) - balls.radius[still]).min(initial=np.inf)) for solid in objects]

@@ -1,4 +1,4 @@
-"""--capsules, --radius, --margin, --clearance, --cell: what an arm is kept clear of, itself and the objects around it."""
+"""--capsules, --radius, --meshes, --margin, --clearance, --cell: what an arm is kept clear of, itself and what is around it."""
 
 from __future__ import annotations
 
@@ -20,14 +20,18 @@ CapsulesOption = Annotated[
 RadiusOption = Annotated[
     float | None,
     typer.Option(
-        "--radius",
-        help="Radius, m, of capsules along the links. Default: 1/20 of the sum of the link lengths, an assumption.",
-        show_default=False,
+        "--radius", help="Radius, m, along the links. Default: the collision shapes, else assumed.", show_default=False
     ),
+]
+MeshesOption = Annotated[
+    Path | None,
+    typer.Option("--meshes", help="Folder in which meshes that the arm's file names are looked for first.", show_default=False),
 ]
 MarginOption = Annotated[
     float | None,
-    typer.Option("--margin", help="Smallest clearance, m, of the best configurations. Default: 0.", show_default=False),
+    typer.Option(
+        "--margin", help="Smallest clearance kept, m; from objects beyond the cell's own. Default: 0.", show_default=False
+    ),
 ]
 ClearanceOption = Annotated[
     bool | None,
@@ -77,6 +81,7 @@ def read_clearance(
     margin: float | None,
     chooses: bool,
     cell: Path | None = None,
+    meshes: Path | None = None,
 ) -> Clearance | None:
     """What the options ask an arm to be kept clear of, or None for nothing. With ``--no-clearance`` the cell alone counts.
 
@@ -88,6 +93,7 @@ def read_clearance(
         margin: ``--margin``, m.
         chooses: The command chooses configurations, so that a clearance can be kept.
         cell: ``--cell``.
+        meshes: ``--meshes``.
 
     Raises:
         InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
@@ -96,9 +102,11 @@ def read_clearance(
     from holdfast.clearance.capsules import Capsules
     from holdfast.clearance.choice import chosen_clearance
     from holdfast.clearance.clearance import Clearance
+    from holdfast.shapes.reading import with_meshes
 
     if margin is not None and not chooses:
         raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
+    arm = arm if meshes is None else with_meshes(arm, meshes)
     if capsules is not None or radius is not None:
         shape = Capsules.load(capsules, arm) if capsules is not None else Capsules.along(arm, radius)
         return chosen_clearance(arm, Clearance(arm, shape, itself=wanted is not False), cell)

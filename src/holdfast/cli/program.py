@@ -30,6 +30,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "studio": "start.studio",
     "describe": "start.arms:describe",
     "arms": "start.arms",
+    "cell": "start.cell",
     "report": "start.assess:report",
     "index": "before.index",
     "susceptibility": "before.susceptibility",

@@ -14,6 +14,7 @@ PRESENTERS = {
     "Arm": ("arm.console", "arm.view"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
+    "CellCheck": ("clearance.cell_check", ""),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),
     "ConvergenceDesigns": ("designs.console", "designs.convergence"),
     "ConvergenceMap": ("convergence.maps", "convergence.maps"),

@@ -14,6 +14,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arms.tool import attachment, attachment_text
 from holdfast.assessment.assessment import Assessment
+from holdfast.clearance.cover import shape_of
 from holdfast.failures import FailureSets, failure_sets
 from holdfast.grammar import ROWS, TASKS
 from holdfast.regions.region import Region
@@ -76,17 +77,27 @@ def _clearance_options(a: Assessment) -> list[str]:
     if clearance is None:
         return ["--no-clearance"] if looks else []
     around = [] if clearance.cell is None else [f"--cell {_CELL_FILE}"]
-    assumed = clearance.capsules.assumed(arm)
-    if not clearance.itself and not (assumed and planar):
+    usual = _usual_shape(a)
+    if not clearance.itself and not (usual and planar):
         around.append("--no-clearance")
     looks = looks or (clearance.cell is not None and clearance.itself != planar) or not clearance.itself
     radius = clearance.capsules.radius_along(arm)
-    if assumed:
+    if usual:
         words = [] if looks else ["--clearance"]
     else:
         words = [f"--capsules {_CAPSULES_FILE}"] if radius is None else [f"--radius {radius!r}"]
     kept = a.plan.optimise or clearance.cell is not None
     return [*around, *words, *([f"--margin {a.plan.margin!r}"] if a.plan.margin and kept else [])]
+
+
+def _usual_shape(a: Assessment) -> bool:
+    """Whether the shape of the arm is the one that is taken where none is given."""
+    clearance = a.plan.clearance
+    if clearance is None or clearance.capsules.covers:
+        return True
+    known = arms.load(a.arm.name) if a.arm.name in arms.names() else None
+    covered = known is not None and known.fingerprint == a.arm.fingerprint and shape_of(known).covers
+    return clearance.capsules.assumed(a.arm) and not covered
 
 
 def capsule_files(a: Assessment) -> list[Block]:
@@ -95,7 +106,7 @@ def capsule_files(a: Assessment) -> list[Block]:
     if clearance is None:
         return []
     files = {}
-    if clearance.capsules.radius_along(a.arm) is None:
+    if clearance.capsules.radius_along(a.arm) is None and not _usual_shape(a):
         files[_CAPSULES_FILE] = clearance.capsules.to_dict(a.arm)
     if clearance.cell is not None:
         files[_CELL_FILE] = clearance.cell.to_dict()

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.recovery.continuation import RestOfPath
@@ -137,6 +138,11 @@ class Recovery(Result):
     clearance: Clearance | None
     margin: float
     seed: int
+
+    @property
+    def cell(self) -> Cell | None:
+        """The objects around the arm."""
+        return None if self.clearance is None else self.clearance.cell
 
     @property
     def ok(self) -> bool:

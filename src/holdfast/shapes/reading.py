@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from holdfast.arm import urdf
 from holdfast.arm.model import Arm
 from holdfast.arms.catalogue import outermost
+from holdfast.errors import InputError
 from holdfast.shapes.pieces import Missing, Piece, Purpose
 
 
@@ -61,3 +63,16 @@ def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
 
         return mjcf_pieces.excluded(Path(arm.chain.file))
     return urdf.disabled_pairs(Path(arm.chain.srdf)) if arm.chain.srdf else frozenset()
+
+
+def with_meshes(arm: Arm, folder: str | Path) -> Arm:
+    """The same arm with a folder in which the meshes that its file names are looked for first.
+
+    Raises:
+        InputError: There is no such folder, or the arm is from no file.
+    """
+    if not Path(folder).is_dir():
+        raise InputError(f"the folder of meshes is '{folder}', which cannot be found or is not a folder; give another")
+    if arm.chain is None or not arm.chain.file:
+        raise InputError(f"'{arm.name}' is from no URDF file, so no meshes belong to it; leave out their folder")
+    return replace(arm, chain=replace(arm.chain, meshes=str(Path(folder).absolute())))

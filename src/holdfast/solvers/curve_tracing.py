@@ -44,12 +44,15 @@ class Component:
         bounded_by: Index from 0 of the joint whose limit ends the curve at its first and at its last point; None where none
             does: on a closed curve, and where the curve runs into a singular configuration.
         length: rad (and m, of prismatic joints), of the polygon through the points.
+        barred_by: The pair of a clearance, ``panda_joint4 & table``, that ends the curve at its first and at its last point;
+            empty where none does.
     """
 
     q: Array
     closed: bool
     bounded_by: tuple[int | None, int | None]
     length: float
+    barred_by: tuple[str, str] = ("", "")
 
 
 @dataclass

@@ -19,10 +19,15 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, target_pose
+from holdfast.cell.cell import Cell
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError, TaskError
 from holdfast.files.output import write_table
 from holdfast.notice import each, says
 from holdfast.result import Result
+from holdfast.solvers import joint_space
+from holdfast.solvers.clear_parts import Clear
 from holdfast.solvers.curve_tracing import Component, Tracer
 from holdfast.status import Status
 
@@ -43,7 +48,10 @@ class SelfMotion(Result):
         components: Its curves, for redundancy 1; empty otherwise.
         q: (N, n) all points: of all components one after the other, or the sample.
         spacing: Of the points, rad (and m).
-        status: ``OK``, ``NOT_FOUND`` (no configuration was found, which proves nothing) or ``BAD_INPUT``.
+        status: ``OK``, ``NOT_FOUND`` (no configuration was found, which proves nothing), ``INFEASIBLE`` (none that was found is
+            clear) or ``BAD_INPUT``.
+        clearance: What the configurations are clear of, the arm itself and its cell, or None.
+        margin: m that is kept, at least.
         bounds: For each joint the values at which it may lock without losing the pose, rad or m, ``(low, high)`` each, if
             somebody asked :func:`holdfast.joint_bounds` for them.
     """
@@ -56,7 +64,14 @@ class SelfMotion(Result):
     q: Array
     spacing: float
     status: Status
+    clearance: Clearance | None = None
+    margin: float = 0.0
     bounds: Sequence[Sequence[tuple[float, float]]] | None = None
+
+    @property
+    def cell(self) -> Cell | None:
+        """The objects around the arm."""
+        return None if self.clearance is None else self.clearance.cell
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -69,6 +84,8 @@ class SelfMotion(Result):
         return lines
 
     def _found(self) -> str:
+        if self.status == Status.INFEASIBLE and self.clearance is not None:
+            return f"at every configuration found the arm {self.clearance.too_close(self.margin)}"
         if self.status != Status.OK:
             return self.status.sentence
         if self.redundancy > 1:
@@ -84,7 +101,27 @@ class SelfMotion(Result):
         if c.closed:
             return "closed"
         names = self.arm.joint_names
-        return " to ".join("singular configuration" if i is None else f"limit of {names[i]}" for i in c.bounded_by)
+        limits = ["singular configuration" if i is None else f"limit of {names[i]}" for i in c.bounded_by]
+        return " to ".join(pair or limit for pair, limit in zip(c.barred_by, limits, strict=True))
+
+    def arcs(self) -> list[list[tuple[float, float]]]:
+        """For each joint the values that it takes on the curves, ``(low, high)`` each, rad or m: where it may lock.
+
+        Up to curves that no start found. Joints that turn without limits begin within -pi to pi.
+
+        Raises:
+            InputError: The manifold is sampled, not made of curves.
+        """
+        if self.redundancy > 1:
+            raise InputError(
+                f"with a redundancy of {self.redundancy} configurations are samples, which do not say where a joint may lock; "
+                "leave the clearance and the cell out"
+            )
+        turning = joint_space.turning(self.arm)
+        return [
+            _joined([(float(c.q[:, k].min()), float(c.q[:, k].max())) for c in self.components], bool(turning[k]))
+            for k in range(self.arm.n)
+        ]
 
     def to_csv(self, file: str | Path, degrees: bool = False) -> Path:
         """Write all points as rows, with the number of their curve; revolute joints in rad or degrees.
@@ -110,6 +147,9 @@ def self_motion(
     spacing: float = 0.05,
     seed: int = 0,
     starts: int = STARTS,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    margin: float = 0.0,
 ) -> SelfMotion:
     """All configurations of a target that were found, within the joint limits; ``fibres`` takes many poses.
 
@@ -121,15 +161,19 @@ def self_motion(
         spacing: Distance of neighbouring points in joint space, rad; see :func:`holdfast.solvers.fibres`.
         seed: Of the starts.
         starts: Random starts of inverse kinematics: more find shorter curves.
+        clearance: Of the arm from itself; not looked at if not given. See :func:`holdfast.solvers.fibres`.
+        cell: Objects around the arm, or their file.
+        margin: m; from an object beyond what the cell keeps from it.
 
     Raises:
-        InputError: A target of another shape or with NaN, or options out of range.
+        InputError: A target of another shape or with NaN, options out of range, or a cell that cannot be read or does not fit.
         TaskError: The arm has no redundancy for the task.
 
     Source: Goel et al. 2005.
     """
     rows = as_task(arm, task)
-    return fibres(arm, target_pose(rows, target), rows, spacing=spacing, seed=seed, starts=starts)[0]
+    options = {"clearance": clearance, "cell": cell, "margin": margin}
+    return fibres(arm, target_pose(rows, target), rows, spacing=spacing, seed=seed, starts=starts, **options)[0]  # type: ignore[arg-type]
 
 
 @says("tracing self-motions")
@@ -142,6 +186,9 @@ def fibres(
     seed: int = 0,
     starts: int = STARTS,
     follow: bool = False,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    margin: float = 0.0,
 ) -> list[SelfMotion]:
     """The self-motion manifold of each pose, within the joint limits.
 
@@ -160,12 +207,17 @@ def fibres(
         starts: Random starts of inverse kinematics per pose.
         follow: The poses follow each other along a path: each curve of a pose is also looked for at the poses before and
             behind it. Only with one degree of redundancy.
+        clearance: Of the arm from itself; not looked at if not given. True: capsules of an assumed radius. Curves are cut
+            where less room than the margin is left, and what is kept of them is proved clear between its points too.
+        cell: Objects around the arm, or their file; the links are then kept apart as well, but for an arm that moves in a
+            plane and with ``clearance=False``.
+        margin: m; from an object beyond what the cell keeps from it.
 
     Returns:
         One :class:`SelfMotion` per pose; every point meets its pose to 1e-9 rad, and m for an arm of 1 m.
 
     Raises:
-        InputError: Poses that are not 4x4 transforms, or options out of range.
+        InputError: Poses that are not 4x4 transforms, options out of range, or a cell that cannot be read or does not fit.
         TaskError: The arm has no redundancy for the task.
 
     Source: Goel et al. 2005.
@@ -182,6 +234,10 @@ def fibres(
         raise InputError(f"spacing is {spacing:g}; it must be above 0 and at most 0.5 rad")
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
+    if not np.isfinite(margin):
+        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
+    kept = chosen_clearance(arm, clearance, cell, looks=False)
+    clear = None if kept is None or not kept.pair_names else Clear.of(kept, margin)
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
     tracer = _tracer(arm, tuple(map(tuple, rows.rows.tolist())), rows.frame)
     owner, q = tracer.seeds(targets, np.flatnonzero(finite), seed, starts)
@@ -190,15 +246,50 @@ def fibres(
         tracer.curves(targets, owner, q, spacing, components)
         if follow:
             tracer.passed_on(targets, spacing, components)
+        there = [bool(found) for found in components]
+        if clear is not None:
+            components = [
+                [part for c in found for part in clear.parts(tracer, t, c)]
+                for t, found in zip(targets, components, strict=True)
+            ]
         points = [np.concatenate([c.q for c in found]) if found else np.empty((0, arm.n)) for found in components]
     else:
         points = [tracer.sample(t, q[owner == i], spacing) for i, t in enumerate(each("poses", targets, whole=True))]
-    found_any = [Status.OK if len(p) else Status.NOT_FOUND for p in points]
+        there = [bool(len(p)) for p in points]
+        points = points if clear is None else [p[clear.keeps(p)] for p in points]
+    found_any = [
+        Status.OK if len(p) else Status.INFEASIBLE if was else Status.NOT_FOUND for p, was in zip(points, there, strict=True)
+    ]
     status = [s if ok else Status.BAD_INPUT for s, ok in zip(found_any, finite, strict=True)]
+    common = {"arm": arm, "task": rows, "redundancy": redundancy, "spacing": spacing, "clearance": kept, "margin": margin}
     return [
-        SelfMotion(arm=arm, pose=t, task=rows, redundancy=redundancy, components=tuple(c), q=p, spacing=spacing, status=s)
+        SelfMotion(pose=t, components=tuple(c), q=p, status=s, **common)  # type: ignore[arg-type]
         for t, c, p, s in zip(targets, components, points, status, strict=True)
     ]
+
+
+def _joined(spans: list[tuple[float, float]], circle: bool) -> list[tuple[float, float]]:
+    """Intervals that overlap as one; on a circle those that begin beyond -pi to pi are moved there by whole turns."""
+    turn = 2 * np.pi
+    if circle:
+        if any(high - low >= turn for low, high in spans):
+            return [(-np.pi, np.pi)]
+        spans = [
+            (low - np.floor((low + np.pi) / turn) * turn, high - np.floor((low + np.pi) / turn) * turn) for low, high in spans
+        ]
+        spans += [(-np.pi, high - turn) for _, high in spans if high > np.pi]
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(spans):
+        if found and low <= found[-1][1]:
+            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        else:
+            found.append((low, high))
+    if circle and len(found) > 1 and found[-1][1] >= found[0][0] + turn:
+        found[-1] = (found[-1][0], max(found[-1][1], found[0][1] + turn))
+        found.pop(0)
+    if circle and len(found) == 1 and found[0][1] - found[0][0] >= turn:
+        return [(-np.pi, np.pi)]
+    return found
 
 
 @lru_cache(maxsize=16)

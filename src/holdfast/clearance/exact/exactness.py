@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh
+from holdfast.cell.solids import Solid
 from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.chains import spheres_of
 from holdfast.clearance.exact.bodies import box_about, of_solid, solids_within
@@ -22,6 +23,7 @@ from holdfast.clearance.obstacles import Obstacles
 Array = NDArray[np.float64]
 Truths = NDArray[np.bool_]
 Pair = tuple[int, int]
+Group = tuple[int, bool]  # a link, and whether what it holds or itself
 
 _FEW = 500  # faces of a hull, all of which are looked at before a library is asked
 
@@ -36,6 +38,7 @@ class Exactness:
         pairs: Positions of the capsules that are checked against each other, the one nearer to the base first.
         ignored: Positions of those that are not.
         obstacles: The objects of its cell, or None.
+        held: What moves with the tool, with poses in its frame.
     """
 
     def __init__(
@@ -46,10 +49,11 @@ class Exactness:
         pairs: Sequence[Pair],
         ignored: Sequence[Pair],
         obstacles: Obstacles | None,
+        held: Sequence[Solid],
     ) -> None:
         self.arm, self.capsules, self.obstacles = arm, capsules, obstacles
         self._alone, self._pairs, self._ignored = alone, pairs, ignored
-        self.parts = parts_of(capsules)
+        self.parts = parts_of(arm, capsules, held)
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
@@ -104,7 +108,7 @@ class Exactness:
 
     # ---- pairs of links ------------------------------------------------------------------------------------------
 
-    def _between(self, low: int, high: int) -> list[tuple[int, int]]:
+    def _between(self, low: Group, high: Group) -> list[tuple[int, int]]:
         """Bodies of two links that are checked against each other, by their positions in ``parts``."""
         shape = self.capsules.shape
         unchecked = frozenset() if shape is None else shape.unchecked
@@ -112,23 +116,26 @@ class Exactness:
         for a, b in product(range(len(self.parts)), repeat=2):
             one, other = self.parts[a], self.parts[b]
             names = (min(one.owner, other.owner), max(one.owner, other.owner))
-            if (one.link, other.link) == (low, high) and names not in unchecked:
+            if ((one.link, one.held), (other.link, other.held)) == (low, high) and names not in unchecked:
                 found.append((a, b))
         return found
 
+    def _groups(self, pair: Pair) -> tuple[Group, Group]:
+        own = len(self.capsules) - self.capsules.held
+        a, b = ((self.capsules.parts[k].link, k >= own) for k in pair)
+        return a, b
+
     @cached_property
-    def _columns(self) -> dict[tuple[int, int], list[int]]:
+    def _columns(self) -> dict[tuple[Group, Group], list[int]]:
         """Pairs of links that are checked, and where the pairs of their capsules are; nowhere if one that counts is left out.
 
-        Pairs of capsules about bodies that are not checked against each other, ``capsules.apart``, do not count.
+        What the last link holds is apart from it. Pairs of capsules about bodies that are not checked against each other,
+        ``capsules.apart``, do not count.
         """
-        parts = self.capsules.parts
-        found: dict[tuple[int, int], list[int]] = {}
-        for k, (a, b) in enumerate(self._pairs):
-            found.setdefault((parts[a].link, parts[b].link), []).append(k)
-        lacking = {
-            (parts[a].link, parts[b].link) for a, b in self._ignored if (min(a, b), max(a, b)) not in self.capsules.apart
-        }
+        found: dict[tuple[Group, Group], list[int]] = {}
+        for k, pair in enumerate(self._pairs):
+            found.setdefault(self._groups(pair), []).append(k)
+        lacking = {self._groups((a, b)) for a, b in self._ignored if (min(a, b), max(a, b)) not in self.capsules.apart}
         return {links: [] if links in lacking else columns for links, columns in found.items()}
 
     # ---- bounds --------------------------------------------------------------------------------------------------

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.cell.solids import Primitive
+from holdfast.cell.solids import Primitive, Solid
 from holdfast.clearance.capsules import BASE, Capsules
 from holdfast.clearance.chains import Balls
-from holdfast.clearance.exact.bodies import Body, box_about, of_capsule, of_piece
+from holdfast.clearance.exact.bodies import Body, box_about, of_capsule, of_piece, of_solid
 from holdfast.clearance.exact.engines import CONTACT, Engine
 from holdfast.clearance.exact.opponents import Another, Opponent, Placed, of_object
 from holdfast.clearance.obstacles import Obstacles
@@ -32,11 +32,13 @@ class Part:
         link: The joint that moves it, from 0; -1 for the base.
         body: With its pose in the frame of the link.
         owner: Name of the link in the arm's file; empty if it is of none.
+        held: Whether the arm only holds it.
     """
 
     link: int
     body: Body
     owner: str = ""
+    held: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,12 +60,23 @@ class Meeting:
     box: Primitive | None
 
 
-def parts_of(capsules: Capsules) -> list[Part]:
-    """The bodies of an arm: what its capsules cover, and the capsules themselves where they cover nothing that is known."""
-    shape = capsules.shape
-    lacking = set[int]() if shape is None else {item.link for item in shape.missing}
-    pieces = [] if shape is None else [Part(piece.link, of_piece(piece), piece.owner) for piece in shape.pieces]
-    return pieces + [Part(part.link, of_capsule(part)) for part in capsules if shape is None or part.link in lacking]
+def parts_of(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list[Part]:
+    """The bodies of an arm: what its capsules cover, or the capsules themselves where they cover nothing that is known.
+
+    Args:
+        arm: The arm.
+        capsules: Its capsules.
+        held: What moves with the tool, with poses in its frame.
+    """
+    shape, own = capsules.shape, capsules.own
+    if shape is None:
+        parts = [Part(part.link, of_capsule(part)) for part in own]
+    else:
+        lacking = {item.link for item in shape.missing}
+        parts = [Part(piece.link, of_piece(piece), piece.owner) for piece in shape.pieces]
+        parts += [Part(part.link, of_capsule(part)) for part in own if part.link in lacking]
+    bodies = [of_solid(solid) for solid in held]
+    return parts + [Part(arm.n - 1, replace(body, pose=arm.tool @ body.pose), held=True) for body in bodies]
 
 
 class Meetings:

@@ -9,15 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import (
-    CapsulesOption,
-    CellOption,
-    ClearanceOption,
-    MarginOption,
-    RadiusOption,
-    check_clearance,
-    read_clearance,
-)
+from holdfast.cli import clearance as apart
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
@@ -94,11 +86,12 @@ def command(
             "--starts", help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more.", show_default=False
         ),
     ] = None,
-    clearance: ClearanceOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    margin: MarginOption = None,
-    cell: CellOption = None,
+    clearance: apart.ClearanceOption = None,
+    capsules: apart.CapsulesOption = None,
+    radius: apart.RadiusOption = None,
+    meshes: apart.MeshesOption = None,
+    margin: apart.MarginOption = None,
+    cell: apart.CellOption = None,
     mount: MountOption = "floor",
     gravity: GravityOption = None,
     payload: PayloadOption = None,
@@ -118,7 +111,7 @@ def command(
     from holdfast.arm.task import as_task
     from holdfast.solvers.optima import optimise
 
-    check_clearance(clearance, capsules, radius, margin, cell)
+    apart.check_clearance(clearance, capsules, radius, margin, cell)
     model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     chosen = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
@@ -135,7 +128,7 @@ def command(
         seed=seed,
         starts=starts,
         task=chosen,
-        clearance=read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell),
+        clearance=apart.read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes),
         margin=margin or 0.0,
         initial=given,
     ).require_any()

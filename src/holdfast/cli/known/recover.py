@@ -9,15 +9,7 @@ import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import (
-    CapsulesOption,
-    CellOption,
-    ClearanceOption,
-    MarginOption,
-    RadiusOption,
-    check_clearance,
-    read_clearance,
-)
+from holdfast.cli import clearance as apart
 from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
@@ -89,11 +81,12 @@ def command(
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
-    clearance: ClearanceOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    margin: MarginOption = None,
-    cell: CellOption = None,
+    clearance: apart.ClearanceOption = None,
+    capsules: apart.CapsulesOption = None,
+    radius: apart.RadiusOption = None,
+    meshes: apart.MeshesOption = None,
+    margin: apart.MarginOption = None,
+    cell: apart.CellOption = None,
     check: Annotated[
         Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.", show_default=False)
     ] = None,
@@ -113,9 +106,9 @@ def command(
 
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
-    check_clearance(clearance, capsules, radius, margin, cell)
+    apart.check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
-    shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell)
+    shape = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes)
     if check is not None:
         locked = read_locks(model, lock, degrees, alone=True)
         replay = hf.recovery.check_waypoints(

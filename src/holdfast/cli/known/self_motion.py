@@ -11,6 +11,7 @@ import typer
 from numpy.typing import NDArray
 
 import holdfast as hf
+from holdfast.cli import clearance as apart
 from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
@@ -52,6 +53,11 @@ def command(
     degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (prismatic joints stay in m).")] = False,
     spacing: Annotated[float, typer.Option("--spacing", help="Spacing of the points, rad.")] = 0.05,
     seed: SeedOption = 0,
+    clearance: apart.ClearanceOption = None,
+    capsules: apart.CapsulesOption = None,
+    radius: apart.RadiusOption = None,
+    margin: apart.MarginOption = None,
+    cell: apart.CellOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -69,13 +75,18 @@ def command(
     """
     from holdfast.arm.task import as_task
 
+    apart.check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
     wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
-    motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed)
-    if bounds or plot is not None or out is not None:
+    asked = margin is not None or cell is not None
+    kept = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=asked, cell=cell)
+    motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed, clearance=kept, margin=margin or 0.0)
+    if kept is not None and (bounds or motion.redundancy == 1):
+        motion = replace(motion, bounds=motion.arcs())
+    elif kept is None and (bounds or plot is not None or out is not None):
         motion = replace(motion, bounds=hf.joint_bounds(model, wanted, rows, seed=seed))
     printed(motion, json_, ([] if csv is None else [motion.to_csv(csv, degrees)]) + drawn(motion, plot, out))
 

@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.clearance import (
-    CapsulesOption,
-    CellOption,
-    ClearanceOption,
-    MarginOption,
-    RadiusOption,
-    check_clearance,
-    read_clearance,
-)
+from holdfast.cli import clearance as apart
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     TASK_HELP,
@@ -87,11 +79,12 @@ def command(
         typer.Option("--lock", help="JOINT=VALUE, rad or m, at which it locks; may be given again.", show_default=False),
     ] = None,
     failure_rate: FailureRateOption = None,
-    clearance: ClearanceOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    margin: MarginOption = None,
-    cell: CellOption = None,
+    clearance: apart.ClearanceOption = None,
+    capsules: apart.CapsulesOption = None,
+    radius: apart.RadiusOption = None,
+    meshes: apart.MeshesOption = None,
+    margin: apart.MarginOption = None,
+    cell: apart.CellOption = None,
     at_least: Annotated[
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
@@ -124,7 +117,7 @@ def command(
     from holdfast.kernels.threads import set_threads
 
     threshold = _first(at_least)
-    check_clearance(clearance, capsules, radius, margin, cell)
+    apart.check_clearance(clearance, capsules, radius, margin, cell)
     if threads is not None:
         set_threads(threads)
     candidates = read_candidates(each_arm(arm, base, tip, hold, name), tool or [], task or [])
@@ -154,8 +147,8 @@ def command(
             "optimise": optimise,
             "after_lock": after_lock,
             "locked": read_by_joint(c.arm, lock, "--lock"),
-            "clearance": read_clearance(
-                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell
+            "clearance": apart.read_clearance(
+                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell, meshes=meshes
             )
             or False,
             "margin": margin or 0.0,

@@ -15,7 +15,8 @@ def shape_summary(clearance: Clearance, margin: float) -> dict[str, Any]:
     """What the arm and its cell are taken to be, for machines."""
     arm, capsules = clearance.arm, clearance.capsules
     radius = capsules.radius_along(arm)
-    source = "given" if radius is None else "assumed radius" if capsules.assumed(arm) else "given radius"
+    given = "given" if radius is None else "assumed radius" if capsules.assumed(arm) else "given radius"
+    source = "cover" if capsules.covers else given
     return {
         "capsules": source,
         "radius_m": radius,

@@ -168,7 +168,9 @@ def _view(recovery: Recovery) -> list[tuple[str, list[Any]]]:
                 "Where the arm is",
                 [
                     Picture(
-                        scene(recovery.arm, recovery.at, locked=locked, task=recovery.task, targets=goal).html("motion", words),
+                        scene(
+                            recovery.arm, recovery.at, locked=locked, task=recovery.task, targets=goal, cell=recovery.cell
+                        ).html("motion", words),
                         words,
                     )
                 ],
@@ -176,7 +178,7 @@ def _view(recovery: Recovery) -> list[tuple[str, list[Any]]]:
         ]
     q, time = on_the_way(recovery.q, _FRAMES), np.linspace(0.0, 100.0, _FRAMES)
     readings = [f"{share:.0f} % of the way" for share in time]
-    shown = scene(recovery.arm, q, locked=locked, targets=goal, time=time, readings=readings)
+    shown = scene(recovery.arm, q, locked=locked, targets=goal, time=time, readings=readings, cell=recovery.cell)
     words = (
         "The motion with what is locked, at one speed in joint space."
         + " The target of the end effector is marked." * bool(goal)

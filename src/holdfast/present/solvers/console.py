@@ -171,7 +171,8 @@ def _beside(found: Optima, first: str) -> list[tuple[str, list[Any]]]:
     k = int(found.success.argmax())
     words = f"The arm at its best configuration and, see-through, at {first}; the tool is in the same place."
     both = np.array([found.q[k], found.before[k]])
-    shown = scene(found.arm, both, labels=("best", "before"), targets=[found.poses[k]])
+    cell = None if found.clearance is None else found.clearance.cell
+    shown = scene(found.arm, both, labels=("best", "before"), targets=[found.poses[k]], cell=cell)
     return [
         ("Before and best", [Picture(shown.html("both", words), words + (f" Pose {k + 1}." if len(found.poses) > 1 else ""))])
     ]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, print_rows
 from holdfast.present.story import Story
 from holdfast.solvers.joint_space import turning
@@ -39,10 +40,12 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
                 "closed": c.closed,
                 "length_rad": c.length,
                 "bounded_by": [None if i is None else names[i] for i in c.bounded_by],
+                "barred_by": [pair or None for pair in c.barred_by],
                 "points": len(c.q),
             }
             for c in motion.components
         ],
+        "clearance": None if motion.clearance is None else shape_summary(motion.clearance, motion.margin),
         **({} if motion.bounds is None else {"bounds": dict(zip(names, motion.bounds, strict=True))}),
     }
 
@@ -73,8 +76,13 @@ def story(motion: SelfMotion) -> Story:
         answer = f"No configuration of the target was found{proof}."
     elif count:
         closed = sum(c.closed for c in motion.components)
+        barred = "" if motion.clearance is None else f", by {motion.clearance.others}"
         ends = (
-            "closed" if closed == count else "ended by limits or singular configurations" if not closed else f"{closed} closed"
+            "closed"
+            if closed == count
+            else f"ended by limits{barred} or singular configurations"
+            if not closed
+            else f"{closed} closed"
         )
         answer = f"The target is reached on {counted(count, 'curve')} of configurations, {ends}"
     else:
@@ -121,6 +129,7 @@ def story(motion: SelfMotion) -> Story:
                 f"{len(motion.q):,}, {motion.spacing:.3g} rad apart; curves that no random start converges to are missed",
             ),
             ("Where joints may lock", "the values that each joint takes over all configurations found"),
+            ("Clearance", "not looked at" if motion.clearance is None else shape_text(motion.clearance, motion.margin)),
         ],
         arm=arm,
     )
@@ -180,13 +189,13 @@ def _moving(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
     if not motion.components:
         few = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
         words = "The arm in a few of the configurations; the tool is at the target in each."
-        return [("The arm at the target", [Picture(scene(motion.arm, few).html("motion", words), words)])]
+        return [("The arm at the target", [Picture(scene(motion.arm, few, cell=motion.cell).html("motion", words), words)])]
     longest = max(motion.components, key=lambda c: c.length)
     time = np.linspace(0.0, 8.0, len(longest.q))
     words = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
     if len(time) < 2:
         return []
-    shown = scene(motion.arm, longest.q, time=time, targets=[motion.pose])
+    shown = scene(motion.arm, longest.q, time=time, targets=[motion.pose], cell=motion.cell)
     return [("The self-motion", [Picture(shown.html("motion", words), words)])]
 
 
@@ -215,8 +224,10 @@ def figures(motion: SelfMotion) -> dict[str, Figure]:
     """Joint values along the curves with where each joint may lock, and the arm in a few of the configurations."""
     from holdfast.reach.bounds import joint_bounds
 
-    arcs = joint_bounds(motion.arm, motion.pose, motion.task) if motion.bounds is None else motion.bounds
-    return {"self-motion": _figure(motion, arcs)}
+    if motion.bounds is not None or (motion.clearance is not None and motion.redundancy > 1):
+        return main_figure(motion)
+    kept = motion.clearance is not None
+    return {"self-motion": _figure(motion, motion.arcs() if kept else joint_bounds(motion.arm, motion.pose, motion.task))}
 
 
 def main_figure(motion: SelfMotion) -> dict[str, Figure]:

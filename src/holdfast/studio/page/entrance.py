@@ -1,6 +1,6 @@
 """Who may come in: only pages that the studio itself has served, so that no other page can reach into it.
 
-The rule is that of :mod:`holdfast.files.hosts`. Programs that are no browsers run on this machine, or in a network that
+The rule is that of :mod:`holdfast.files.hosts`. Programs other than browsers run on this machine, or in a network that
 ``--host`` has let in.
 """
 

@@ -50,7 +50,7 @@ def _turned(f: Facts) -> Picture:
     poses: dict[str, Any] = {}
     if rows is not None and len(chosen):
         poses = {"points": rows.position[chosen].round(4), "colors": 255 * f.scale.colors(rows.value[chosen])[:, :3]}
-    view = scene(f.a.arm, f.representative[0], region=f.a.region, **poses)
+    view = scene(f.a.arm, f.representative[0], region=f.a.region, cell=f.a.plan.cell, **poses)
     text = f"The arm {f.representative[1]}; drag to turn it."
     if poses:
         text += f" A dot is a {f.noun} that can be chosen; what is chosen above moves the arm."

@@ -1,0 +1,1 @@
+"""What an arm meets in a cell, by how its distance is told."""

@@ -1,0 +1,45 @@
+"""``holdfast cell``: check."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import BaseOption, HoldOption, JsonOption, OutOption, TipOption, read_arm
+from holdfast.present.results import drawn, printed
+
+command = typer.Typer(
+    name="cell",
+    help="The objects around an arm: what they touch, and how sharply they are seen.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+@command.command()
+def check(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.", show_default=False)],
+    arm: Annotated[
+        str | None, typer.Option("--arm", help="Built-in name or arm file: what it touches.", show_default=False)
+    ] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    out: OutOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Check a cell: what cannot be read, what touches the base or always, how sharp its grids are.
+
+    The exit code is 3 if something touches the base or in every configuration.
+
+    Example: holdfast cell check bench.yaml --arm panda
+    """
+    from holdfast.cli.known.recover import NOT_MET
+
+    found = hf.check_cell(file, None if arm is None else read_arm(arm, base, tip, hold))
+    printed(found, json_, drawn(found, None, out))
+    if not found.ok:
+        raise typer.Exit(NOT_MET)

@@ -1,0 +1,110 @@
+"""The parts of a curve of configurations that are clear of the arm itself and its cell: between points, not only at them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.configurations import finite_limits
+from holdfast.clearance.clearance import Clearance
+from holdfast.solvers import joint_space
+from holdfast.solvers.curve_tracing import Component, Tracer
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+FINEST = 5e-4  # m of possible change: what cannot be told clear at this ends the part
+_BENT = 1.1  # a curve is longer than the straight piece between two of its points by less than this
+
+
+@dataclass(frozen=True)
+class Clear:
+    """What is kept clear of, and how fast that can change.
+
+    Attributes:
+        clearance: Whose room is kept.
+        margin: At least, m.
+        slopes: (P, n) of its pairs, m per rad and m.
+    """
+
+    clearance: Clearance
+    margin: float
+    slopes: Array
+
+    @classmethod
+    def of(cls, clearance: Clearance, margin: float) -> Clear:
+        """For configurations within the limits of its arm."""
+        return cls(clearance, margin, clearance.changes(*finite_limits(clearance.arm)))
+
+    def gaps(self, q: Array) -> Array:
+        """(N, P) distance of every pair beyond what must be kept, m."""
+        return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)
+
+    def keeps(self, q: Array) -> Flags:
+        """(N,) True where enough room is left at q (N, n)."""
+        return np.asarray(self.clearance.room(q) >= self.margin)
+
+    def parts(self, tracer: Tracer, pose: Array, whole: Component) -> list[Component]:
+        """The parts of a curve of a pose (4, 4) that are clear, in order; what ends them by name.
+
+        Between two of its points, at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
+        most that its distance can change on the way (:meth:`Clearance.changes`). Pieces for which that does not do are halved,
+        by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
+        """
+        q = whole.q
+        if whole.closed:
+            q = np.concatenate([q, q[-1] + joint_space.difference(tracer.arm, q[:1], q[-1])])
+        gaps = self.gaps(q)
+        while True:
+            clear = gaps.min(axis=1) >= 0
+            most = _BENT * np.abs(np.diff(q, axis=0)) @ self.slopes.T
+            proved = clear[1:] & clear[:-1] & ((gaps[1:] + gaps[:-1] - most).min(axis=1) >= 0)
+            open_ = np.flatnonzero(~proved & (clear[1:] | clear[:-1]) & (most.max(axis=1) >= FINEST))
+            if not open_.size:
+                break
+            middle, on, _ = tracer.corrected((q[open_] + q[open_ + 1]) / 2, np.broadcast_to(pose, (open_.size, 4, 4)))
+            between = self.gaps(middle)
+            between[~on] = -np.inf
+            q = np.insert(q, open_ + 1, middle, axis=0)
+            gaps = np.insert(gaps, open_ + 1, between, axis=0)
+        if proved.all():
+            return [whole]
+        return self._cut(whole, q, gaps, proved)
+
+    def _cut(self, whole: Component, q: Array, gaps: Array, proved: Flags) -> list[Component]:
+        """The runs of pieces that are proved, of points q (K, n)."""
+        if whole.closed:  # begin behind a piece that is not clear
+            first = int(np.flatnonzero(~proved)[0]) + 1
+            ahead = q[1:] + (q[-1] - q[0])
+            q = np.concatenate([q[first:], ahead[:first]])
+            gaps = np.concatenate([gaps[first:], gaps[1 : first + 1]])
+            proved = np.concatenate([proved[first:], proved[:first]])
+        edges = np.flatnonzero(np.diff(np.r_[False, proved, False].astype(np.int8)))
+        found = []
+        for start, end in zip(edges[::2], edges[1::2], strict=True):
+            ended = (start > 0 or whole.closed, end < len(q) - 1 or whole.closed)
+            names = tuple(
+                self._name(gaps[k], gaps[other % len(gaps)]) if cut else ""
+                for cut, k, other in ((ended[0], start, start - 1), (ended[1], end, end + 1))
+            )
+            bounds = tuple(None if cut else joint for cut, joint in zip(ended, whole.bounded_by, strict=True))
+            part = q[start : end + 1]
+            length = float(np.linalg.norm(np.diff(part, axis=0), axis=1).sum())
+            found.append(
+                replace(
+                    whole,
+                    q=part,
+                    closed=False,
+                    bounded_by=(bounds[0], bounds[1]),
+                    barred_by=(names[0], names[1]),
+                    length=length,
+                )
+            )
+        return found
+
+    def _name(self, inside: Array, outside: Array) -> str:
+        """The pair that ends a part: the nearest just beyond its end, or at it where nothing is known of beyond."""
+        there = outside if np.isfinite(outside).all() else inside
+        return self.clearance.pair_names[int(np.argmin(there))]

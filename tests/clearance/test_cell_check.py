@@ -1,0 +1,68 @@
+"""`holdfast cell check`: what touches the base, always, or sometimes; against counts from the clearance itself."""
+
+import math
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.arm.configurations import finite_limits
+from holdfast.cell import Box, Mesh, Points, Sphere, field
+from holdfast.probability.sobol_sequence import sobol
+
+
+def at(*xyz: float) -> np.ndarray:
+    pose = np.eye(4)
+    pose[:3, 3] = xyz
+    return pose
+
+
+@pytest.fixture
+def cell(monkeypatch):
+    monkeypatch.setattr(field, "_NODES", 5_000)
+    corners = np.array([[x, y, z] for x in (0, 0.2) for y in (0, 0.2) for z in (0, 0.2)])
+    block = Mesh(
+        "block", (corners, [[0, 1, 3], [0, 3, 2], [0, 4, 5], [0, 5, 1], [0, 2, 6]]), solid="hull", pose=at(0.5, 0, 0.4)
+    )
+    scan = Points("scan", [[0.0, 0.5, 0.5]], radius=0.02, margin=0.2)
+    objects = [Box("table", [1, 1, 0.1], pose=at(0, 0, -0.05)), Sphere("hood", 0.6, pose=at(0, 0, 0.6)), block, scan]
+    return hf.Cell(objects, margin=0.01, name="bench")
+
+
+def test_what_touches_is_told_by_name_and_counted(cell):
+    arm = hf.arms.load("panda")
+    found = hf.check_cell(cell, arm)
+    assert found.base == ("table", "hood")
+    assert "panda_joint4 & hood" in found.always
+    assert not found.ok
+    low, high = finite_limits(arm)
+    q = low + (high - low) * sobol(512, arm.n)
+    open_ = hf.Cell(cell.objects, may_touch=[("table", "base"), ("hood", "base")])
+    clearance = hf.Clearance(arm, cell=open_, itself=False)
+    hits = clearance.by_pair(q) < 0
+    assert found.colliding == hits.any(axis=1).mean() == 1.0
+    names = np.array([name.partition(" & ")[2] for name in clearance.pair_names])
+    for each in found.objects:
+        assert each.touching == hits[:, names == each.name].any(axis=1).mean()
+    assert [each.kind for each in found.objects] == ["box", "sphere", "hull", "point cloud"]
+    assert [each.margin for each in found.objects] == [0.01, 0.01, 0.01, 0.2]
+    assert [each.width > 0 for each in found.objects] == [False, False, True, True]
+    assert "the base of 'panda' touches table, hood" in found.describe()[1]
+
+
+def test_a_sound_cell_without_and_with_an_arm(cell):
+    alone = hf.check_cell(hf.Cell(cell.objects[2:]))
+    assert alone.ok
+    assert math.isnan(alone.colliding)
+    assert alone.describe()[1] == "give an arm to see what it touches"
+    found = hf.check_cell(hf.Cell(cell.objects[2:]), hf.arms.load("panda"))
+    assert found.ok
+    assert 0 < found.colliding < 0.5
+
+
+def test_nothing_is_said_of_a_cell_whose_files_changed(tmp_path):
+    np.save(tmp_path / "scan.npy", np.zeros((2, 3)))
+    cell = hf.Cell([Points("scan", tmp_path / "scan.npy", radius=0.1)])
+    np.save(tmp_path / "scan.npy", np.ones((2, 3)))
+    with pytest.raises(hf.InputError, match="changed since"):
+        hf.check_cell(cell)
