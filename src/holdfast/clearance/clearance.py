@@ -304,9 +304,7 @@ class Clearance:
         """Whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules cover.
 
         Margins do not count, what is nearer than 1e-6 m may count as touching, and a row that is not finite is not clear.
-
-        Raises:
-            HoldfastError: Neither python-fcl nor coal is installed; so for ``exact``.
+        Without python-fcl and coal this and ``exact`` raise a HoldfastError that says what to install.
         """
         return self._of_rows(q, self._exactness.clear)
 
@@ -314,9 +312,10 @@ class Clearance:
         """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is."""
         return self._of_rows(q, self._exactness.distances)
 
-    def _of_rows(self, q: ArrayLike, ask: Callable[[Array], Any]) -> Any:
+    def _of_rows(self, q: ArrayLike, ask: Callable[[Array], NDArray[Any]]) -> NDArray[Any]:
         rows, single = as_configurations(self.arm, q)
-        return ask(rows)[0] if single else ask(rows)
+        values = ask(rows)
+        return values[0] if single else values
 
     @property
     def exact_by(self) -> str:
@@ -388,17 +387,14 @@ class Clearance:
         if q is not None:
             k = int(self.closest_pair(q))
             other, own = ("itself", False) if k < len(self.pairs) else ("the cell", bool(self.margins[k]))
-            where = f" ({self.pair_names[k]}, {_apart(float(self.by_pair(q)[k]))})"
+            away = float(self.by_pair(q)[k])
+            where = f" ({self.pair_names[k]}, {abs(away):.3g} m {'deep' if away < 0 else 'apart'})"
         if own:
             return f"comes closer to {other} than it may{where}"
         return (f"comes closer than {margin:g} m to {other}" if margin else f"collides with {other}") + where
 
     def __repr__(self) -> str:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
-
-
-def _apart(distance: float) -> str:
-    return f"{-distance:.3g} m deep" if distance < 0 else f"{distance:.3g} m apart"
 
 
 def _constant(rows: Array, value: float) -> Array:
