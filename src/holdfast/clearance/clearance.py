@@ -99,8 +99,8 @@ class Clearance:
 
     def with_cell(self, cell: Cell | None) -> Clearance:
         """The same clearance in another cell; the arm's own pairs are chosen again only where it holds something else."""
-        before, after = (() if x is None else x.held for x in (self.cell, cell))
-        return self._in(cell) if before == after else Clearance(self.arm, self.capsules, cell, itself=self.itself)
+        same = getattr(self.cell, "held", ()) == getattr(cell, "held", ())
+        return self._in(cell) if same else Clearance(self.arm, self.capsules, cell, itself=self.itself)
 
     def _in(self, cell: Cell | None) -> Clearance:
         other = copy(self)
@@ -303,8 +303,7 @@ class Clearance:
     def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
         """Whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules cover.
 
-        Margins do not count, what is nearer than 1e-6 m may count as touching, and a row that is not finite is not clear.
-        Without python-fcl and coal this and ``exact`` raise a HoldfastError that says what to install.
+        Margins do not count, less than 1e-6 m may, and a row that is not finite is not clear. Needs python-fcl or coal.
         """
         return self._of_rows(q, self._exactness.clear)
 
@@ -387,8 +386,7 @@ class Clearance:
         if q is not None:
             k = int(self.closest_pair(q))
             other, own = ("itself", False) if k < len(self.pairs) else ("the cell", bool(self.margins[k]))
-            away = float(self.by_pair(q)[k])
-            where = f" ({self.pair_names[k]}, {abs(away):.3g} m {'deep' if away < 0 else 'apart'})"
+            where = f" ({self.pair_names[k]}, {abs(away := float(self.by_pair(q)[k])):.3g} m {'deep' if away < 0 else 'apart'})"
         if own:
             return f"comes closer to {other} than it may{where}"
         return (f"comes closer than {margin:g} m to {other}" if margin else f"collides with {other}") + where
