@@ -62,6 +62,7 @@ def test_the_first_link_meets_an_object_which_it_does_not_as_a_part_of_the_base(
     found = hf.recover(arm, ["joint2"], away[0], clearance=clearance, **common)
     assert found.ending == Ending.NO_ROUTE_FOUND  # the limits of joint 1 close the other way
     assert not len(found.q)
+    assert "in the way of the straight line: joint1 & bar" in found.reason
 
 
 def test_a_route_of_a_panda_through_a_bench_never_touches_it(rng):
@@ -92,6 +93,12 @@ def test_what_is_in_the_way_is_named(slim):
     found = hf.recover(arm, ["joint2"], START, goal=GOAL, clearance=clearance, cell=ball, samples=0)
     assert found.ending == Ending.START_TOO_CLOSE
     assert "comes closer to the cell than it may (joint3 & ball, 0.35" in found.reason
+    pose = arm.forward_kinematics(np.array([-1.5, -0.4, -0.5]))  # in reach, and within an object
+    wall = hf.Cell([Sphere("wall", 0.2, pose=pose)])
+    found = hf.recover(arm, ["joint2"], START, goal=pose, task="planar", clearance=clearance, cell=wall, samples=0, starts=32)
+    assert not found.ok
+    assert "no clear configuration" in found.reason
+    assert "& wall" in found.reason
     with pytest.raises(hf.InputError, match=r"goal: .* the cell .*\(joint3 & ball"):
         hf.recover(arm, ["joint2"], GOAL, goal=START, clearance=clearance, cell=ball, samples=0)
 

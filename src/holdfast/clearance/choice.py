@@ -41,7 +41,7 @@ def chosen_clearance(
             raise InputError(
                 f"the clearance holds the cell '{clearance.cell.name}' and cell is '{around.name}'; give the cell in one place"
             )
-        return Clearance(arm, clearance.capsules, around, itself=clearance.itself)
+        return clearance.with_cell(around)
     if clearance is None:
         return Clearance.by_default(arm, around) if looks or around is not None else None
     return Clearance(arm, cell=around, itself=clearance) if clearance or around is not None else None

@@ -80,6 +80,14 @@ def configurations_of(
     return _distinct(q[np.argsort(metric.length(q - at), kind="stable")])
 
 
+def what_bars(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> str:
+    """The pair that most often is too close where every row of a pose (4, 4) is met, or nothing if none is met or clear."""
+    begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
+    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
+    q = solver.run(begin, poses, kept, space.free)
+    return space.nearest(q[solver.meets(q, poses, kept, space.free)])
+
+
 def _good(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> NDArray[np.bool_]:
     good = solver.meets(q, poses, kept, space.free)
     some = np.flatnonzero(good)

@@ -147,6 +147,13 @@ class Space:
         assert self.clearance is not None
         return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)
 
+    def nearest(self, q: Array) -> str:
+        """The pair that most often is nearest, of those q (N, n) that are too close: ``panda_joint4 & table``, or nothing."""
+        if self.clearance is None:
+            return ""
+        pairs = self.clearance.closest_pair(q[self.clearance.room(q) < self.margin])
+        return self.clearance.pair_names[int(np.bincount(pairs).argmax())] if len(pairs) else ""
+
     def difference(self, a: Array, b: Array) -> Array:
         """``a - b`` of the joints that move, the short way round where they turn without limits."""
         return np.where(self.free, joint_space.difference(self.arm, a, b), 0.0)

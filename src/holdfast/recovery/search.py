@@ -22,7 +22,7 @@ from holdfast.failures import Locked, locks_at
 from holdfast.notice import says
 from holdfast.recovery.bounds import out_of_reach
 from holdfast.recovery.continuation import RestOfPath, rest_of_path
-from holdfast.recovery.goals import Relaxed, RowsGivenUp, configurations_of, rows_to_give_up
+from holdfast.recovery.goals import Relaxed, RowsGivenUp, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route
@@ -256,9 +256,9 @@ def _trouble(
                 "can move there, widen the limits of the arm"
             )
     if clearance is not None and clearance.pair_names and float(clearance.room(at)) < margin:
-        return Ending.START_TOO_CLOSE, (
-            f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, or no clearance"
-        )
+        own = int(clearance.closest_pair(at)) < len(clearance.pairs)
+        advice = "or no clearance" if own else "or move the object"
+        return Ending.START_TOO_CLOSE, f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, {advice}"
     return None
 
 
@@ -341,10 +341,16 @@ class _Search:
             if route is not None:
                 self._add("to the goal", route.q, route.lower_bound, route.straight)
                 return replace(made, ending=ending, reason="; ".join(reasons))
-            reasons.append(f"{len(goals)} configurations of the goal were found and {self.tries} searches led to none of them")
+            reasons.append(
+                f"{len(goals)} configurations of the goal were found and {self.tries} searches led to none of them"
+                f"{self._in_the_way(here, goals[0])}"
+            )
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason="; ".join(reasons))
         proof = self._proof(here, aim.pose)
-        reasons.append(proof or f"no configuration of the goal was found in {made.starts} starts, which proves nothing")
+        pair = "" if proof else what_bars(self.solver, self.space, aim.pose, here, np.random.default_rng(made.seed))
+        found = "no clear configuration" if pair else "no configuration"
+        bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
+        reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
         made = replace(made, proof=proof)
         choices = rows_to_give_up(self.solver, self.space, self.metric, aim.pose, here, self.rng)
         for choice in choices:
@@ -357,6 +363,11 @@ class _Search:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
         everything = tuple(c.rows for c in choices)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
+
+    def _in_the_way(self, here: Array, goal: Array) -> str:
+        """What a straight line to a goal meets, if it meets anything."""
+        pair = self.space.nearest(here + np.linspace(0, 1, 201)[:, None] * self.space.difference(goal, here))
+        return f"; in the way of the straight line: {pair}" if pair else ""
 
     def _relaxed(self, made: Recovery, aim: _Goal, choice: Relaxed, choices: list[Relaxed], reasons: list[str]) -> Recovery:
         rows = choice.rows if aim.lost is None else aim.lost + choice.rows
