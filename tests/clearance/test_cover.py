@@ -141,6 +141,35 @@ def test_the_bound_is_below_the_exact_distance_and_misses_no_penetration(panda, 
     assert np.mean((nearest - bound.min(axis=(1, 2)))[nearest > 0]) < 0.012
 
 
+def test_no_collision_of_the_links_with_each_other_is_missed(panda, rng):
+    coal = pytest.importorskip("coal")
+    arm, shape, capsules = panda
+    q = rng.uniform(arm.lower, arm.upper, (400, arm.n))
+    near = hf.Clearance(arm, capsules)(q) < 0.05
+    bodies = []
+    for hull in shape.hulls:
+        cloud = coal.StdVec_Vec3s()
+        cloud.extend(list(hull.vertices))
+        bodies.append((hull.link, hull.owner, coal.ConvexBase.convexHull(cloud, True, "Qt")))
+    checked = [
+        (one, other)
+        for k, one in enumerate(bodies)
+        for other in bodies[k + 1 :]
+        if abs(one[0] - other[0]) > 1 and tuple(sorted((one[1], other[1]))) not in shape.unchecked
+    ]
+    found = hf.Clearance(arm, capsules)(q[near]) < 0
+    hits = []
+    for frames in arm.frames(q[near]):
+        places = [coal.Transform3s(frame[:3, :3], frame[:3, 3]) for frame in frames]
+        ask = coal.CollisionRequest()
+        touch = (
+            coal.collide(a, places[i + 1], b, places[j + 1], ask, coal.CollisionResult()) for (i, _, a), (j, _, b) in checked
+        )
+        hits.append(any(bool(x) for x in touch))
+    assert sum(hits) >= 5
+    assert found[np.array(hits)].all()
+
+
 def test_primitives_are_covered_where_the_file_puts_them(three, rng):
     shape = Shape.of(three)
     assert [(p.link, p.owner, p.kind) for p in shape.pieces] == [
@@ -301,11 +330,11 @@ def test_a_cell_says_which_shape_an_arm_has_in_it(panda, tmp_path):
     arm, _, capsules = panda
 
     def shape(**options):
-        return hf.Clearance(arm, cell=hf.Cell([Sphere("ball", 0.1, pose=FAR)], **options)).capsules
+        return hf.Clearance(arm, cell=hf.Cell([Sphere("ball", 0.1, pose=FAR)], **options), itself=False).capsules
 
     assert shape() == capsules
     assert shape(shape="assumed") == hf.Capsules.along(arm)
-    assert len(shape(spheres_to=0.006)) > len(capsules)
+    assert len(shape(spheres_to=0.025)) < len(capsules)
     assert shape(hold={"panda_finger_joint1": 0.04}) != capsules
     (tmp_path / "own.yaml").write_text("radius: 0.05")
     assert shape(shape=str(tmp_path / "own.yaml")) == hf.Capsules.along(arm, 0.05)

@@ -1,4 +1,4 @@
-"""--cell of simulate and free-swing: what is touched, in words, JSON, CSV and on the page."""
+"""--cell of simulate, free-swing and follow: what is touched or kept clear of, in words, JSON, CSV and on the page."""
 
 from __future__ import annotations
 
@@ -74,3 +74,20 @@ def test_a_swing_ends_on_what_it_falls_on(cli, ask, tmp_path):
     page = (tmp_path / "swing" / "report.html").read_text(encoding="utf-8")
     check(page)
     assert "lies against table" in page
+
+
+def test_a_path_is_followed_clear_of_a_cell(cli, refused, tmp_path):
+    path, cell = tmp_path / "path.yaml", tmp_path / "cell.yaml"
+    path.write_text("line: {from: {xyz: [1.9, -1.9, 0]}, to: {xyz: [0.9, -1.9, 0]}}\ntiming: {duration: 10}\n")
+    cell.write_text("margin: 0.01\nobjects: {post: {cylinder: {radius: 0.1, length: 1}, pose: {xyz: [1.2, 0.1, 0]}}}\n")
+    call = ["follow", "planar-3r", path, "--maximise", "relative-manipulability", "--method", "none", "--samples", "51"]
+    start = ["--q", "-0.12,-0.91,-0.05"]
+    code, out, err = cli(*call, "--cell", cell, "--csv", tmp_path / "motion.csv", "--out", tmp_path / "out")
+    assert code == 0, err
+    table = np.genfromtxt(tmp_path / "motion.csv", delimiter=",", names=True)
+    assert table["clearance_m"].min() >= 0.01 - 1e-4
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    check(page)
+    assert "Smallest distance of any pair" in page
+    assert "smallest clearance" in " ".join(out.split()).lower()
+    assert "--margin has no effect" in refused(*call, *start, "--margin", "0.1")

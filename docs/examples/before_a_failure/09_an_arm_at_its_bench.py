@@ -28,5 +28,5 @@ for line in result.describe():
 # The best clear configuration of the pose that keeps the most.
 
 columns = result.columns
-best = int(np.nanargmax(columns["optimised"]))
+best = int(np.nanargmax(columns["optimised_index"]))
 arm.show(columns["optimised_q"][best], cell=cell)

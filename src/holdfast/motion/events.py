@@ -27,6 +27,7 @@ from holdfast.caching import cached_property
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
+from holdfast.motion.nearness import Near
 from holdfast.motion.resolution import slope_along
 from holdfast.motion.trajectory import Event
 
@@ -41,6 +42,10 @@ _KEPT = 0.01  # of the value, or of its range
 _JUMP = 0.02  # of the range of the values, in one step
 _BRIDGE = 0.01  # of the steps: events less apart are one
 _DIFFERENCE = 1e-5  # rad
+_CLOSE_BY = 0.05  # m: a motion without a joint at its limit is slowed by what is so near
+_AT_MARGIN = 1e-3  # m: less room than this is as good as none
+_LAG = 0.01  # of the way along the path: a step cut short now and then is made up for
+TOO_NEAR = 1e-4  # m: less than this below what is to be kept comes of the steps
 
 
 class Curvature:
@@ -116,7 +121,9 @@ class Course:
     at_limit: dict[str, Flags]
 
 
-def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | None, cap: str) -> tuple[Event, ...]:
+def find_events(
+    objective: Objective, c: Course, tracks: bool, wanted: float | None, cap: str, near: Near | None = None
+) -> tuple[Event, ...]:
     """What happened, in order of time.
 
     Args:
@@ -125,8 +132,13 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
         tracks: The self-motion was meant to stay at a local best.
         wanted: The value that it was meant to keep, if so.
         cap: What limited the self-motion, for people.
+        near: What it kept clear of, if anything.
     """
     found: list[Event] = []
+    held = np.zeros(len(c.time), dtype=bool)
+    if near is not None:
+        free = ~np.any(list(c.at_limit.values()), axis=0)
+        held = (near.room < _AT_MARGIN) | ((c.task_share < 1 - 1e-9) & (near.room < _CLOSE_BY) & free)
 
     def add(kind: str, flags: Flags, say: Callable[[str], str]) -> None:
         for a, b in _runs(flags, max(1, round(_BRIDGE * len(flags)))):
@@ -155,9 +167,11 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
     add("rate cap", c.self_motion < 1 - 1e-9, lambda when: f"{when}: {cap} slows the self-motion; the tool is not affected")
     add(
         "end effector slowed",
-        c.task_share < 1 - 1e-9,
+        (c.task_share < 1 - 1e-9) & ~held,
         lambda when: f"{when}: joint limits leave no motion that keeps up: the end effector falls behind its path",
     )
+    if near is not None:
+        found += _approaches(near, c, held)
     add(
         "near a singularity",
         c.damping > 0,
@@ -166,6 +180,31 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
     for name, flags in c.at_limit.items():
         add("joint limit", flags, partial(_at_limit, name))
     return tuple(sorted(found, key=lambda e: (e.start, e.kind)))
+
+
+def _approaches(near: Near, c: Course, held: Flags) -> list[Event]:
+    """Where a pair has no more room than it must keep: as a limit that turned the motion, or closer."""
+    found = []
+    bridge = max(1, round(_BRIDGE * len(held)))
+    slowed = 1 - c.task_share
+    for pair in np.unique(near.pair[held]):
+        name, kept = near.names[pair], 1000 * near.kept[pair]
+        link, _, thing = name.partition(" & ")
+        for a, b in _runs(held & (near.pair == pair), bridge):
+            when = _when(float(c.time[a]), float(c.time[b]))
+            span = slice(a, b + 1)
+            least = float(near.room[span].min())
+            if least < -TOO_NEAR:
+                kind = "too near"
+                text = f"{when}: comes nearer than {kept:.3g} mm to {thing} with {link}, by up to {-1000 * least:.2g} mm"
+            elif slowed[span].mean() > _LAG:
+                kind = "end effector slowed"
+                text = f"{when}: {thing} leaves {link} no motion that keeps up: the end effector falls behind its path"
+            else:
+                kind = "kept clear"
+                text = f"{when}: the self-motion keeps {link} clear of {thing}, by the {kept:.3g} mm that are asked for"
+            found.append(Event(kind=kind, start=float(c.time[a]), end=float(c.time[b]), text=text))
+    return found
 
 
 def _at_limit(name: str, when: str) -> str:

@@ -5,7 +5,11 @@ belong to joints at a limit are taken out (A) and these joints move at their bou
 self-motion, and s keeps the norm of the rates under a cap. The two parts are orthogonal, so s slows the self-motion and
 leaves the end effector on its path.
 
-Where joint limits leave no room for that, the motion with s = 0 is computed in the same way, and as much of the way from it to
+A distance that must not shrink too fast is one more limit, a row ``g' qd >= b``: where the motion would pass it, its
+self-motion is changed along ``(I - J_A^+ J) g``, by as little as that takes. Of two rows both are kept where the
+self-motion can.
+
+Where limits leave no room for that, the motion with s = 0 is computed in the same way, and as much of the way from it to
 the first is gone as the limits allow. Only if it too passes a bound the end effector is slowed. (Taking out joints is
 greedy: now and
 then, less than once in 100 crowded configurations, a linear program still finds rates that keep the end effector's speed.)
@@ -38,6 +42,7 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.kernels.step import Steps
 from holdfast.linalg import Cholesky, gram, householder, lowest
+from holdfast.motion.rows import Row, turned_away
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -117,10 +122,11 @@ class Resolution(Steps):
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
-    def expression(self, q: SX, twist: SX) -> SX:
+    def expression(self, q: SX, twist: SX, rows: Sequence[Row] = ()) -> SX:
         """Joint rates (n,), then the shares of self-motion and of the task and the damping, of q (n,) and a twist (6,).
 
         The twist is the tool's, linear (m/s) and angular (rad/s) in the world frame; rows the task leaves free are ignored.
+        A row ``(g, b)``, (n,) and a number, asks for ``g' rates >= b`` as well; there may be two.
         """
         arm, n = self.arm, self.arm.n
         c = kinematics.chain(arm, q)
@@ -129,19 +135,21 @@ class Resolution(Steps):
         j = ca.horzcat(*[self.task.error(full[:, k] * scale, c.rotation) for k in range(n)])
         v = self.task.error(twist * scale, c.rotation)
         low, high = self._bounds(q)
-        alone, _, task, damp = self._kept(q, j, v, low, high, serve=False)
-        rates, share, served, served_damp = self._kept(q, j, v, low, high, serve=True)
+        alone, _, task, damp = self._kept(q, j, v, low, high, rows, serve=False)
+        rates, share, served, served_damp = self._kept(q, j, v, low, high, rows, serve=True)
         bounded = self._bounded(low, high)
-        if not bounded:
+        if not bounded and not rows:
             return ca.vertcat(rates, share, served, served_damp)
         # Where the limits leave no room for all of the self-motion that is wanted, as much of it as they do leave: both
         # motions keep the task, so does every motion between them.
         between = ca.SX(1)
-        for k in bounded:
-            way = rates[k] - alone[k]
-            for bound, towards in ((high[k], way > 1e-12), (low[k], way < -1e-12)):
+        limited = [(low[k], alone[k], rates[k], high[k]) for k in bounded]
+        limited += [(b, ca.dot(g, alone), ca.dot(g, rates), None) for g, b in rows]
+        for least, first, last, most in limited:
+            way = last - first
+            for bound, towards in ((most, way > 1e-12), (least, way < -1e-12)):
                 if bound is not None:
-                    reach = (bound - alone[k]) / ca.if_else(towards, way, 1)
+                    reach = (bound - first) / ca.if_else(towards, way, 1)
                     between = ca.if_else(towards, ca.if_else(reach < between, reach, between), between)
         between = ca.if_else(between > 0, between, 0)
         mixed = alone + between * (rates - alone)
@@ -157,7 +165,9 @@ class Resolution(Steps):
     def _bounded(low: list[SX | None], high: list[SX | None]) -> list[int]:
         return [k for k in range(len(low)) if low[k] is not None or high[k] is not None]
 
-    def _kept(self, q: SX, j: SX, v: SX, low: list[SX | None], high: list[SX | None], serve: bool) -> tuple[SX, SX, SX, SX]:
+    def _kept(
+        self, q: SX, j: SX, v: SX, low: list[SX | None], high: list[SX | None], rows: Sequence[Row], serve: bool
+    ) -> tuple[SX, SX, SX, SX]:
         """Rates (n,) for the task, with the self-motion that is wanted or without, and joints taken out at their bounds.
 
         Also the share of the self-motion that the cap lets pass, the share of all of it that no bound forbids, and the damping.
@@ -186,6 +196,10 @@ class Resolution(Steps):
                 self_motion = own - pinv(j @ own)
                 share = self._share(particular, self_motion)
                 rates = particular + share * self_motion
+            if rows:
+                across = [g * free - pinv(j @ (g * free)) for g, _ in rows]
+                turned, capped, changed = turned_away(rows, particular, rates - particular, across, self.rate_cap)
+                rates, share = particular + turned, ca.if_else(changed, capped, share)
             if number < passes - 1:
                 worst, which, bound = ca.SX(1 + 1e-9), ca.SX(-1), ca.SX(0)
                 for k in bounded:
@@ -205,6 +219,10 @@ class Resolution(Steps):
         for k in bounded:
             ratio, _ = self._excess(rates[k], low[k], high[k])
             slower = ca.if_else(ratio > 1 + 1e-9, 1 / ratio, 1.0)
+            task = ca.if_else(slower < task, slower, task)
+        for g, b in rows:
+            ratio, _ = self._excess(ca.dot(g, rates), b, None)
+            slower = ca.if_else(ratio > 1 + 1e-6, 1 / ratio, 1.0)
             task = ca.if_else(slower < task, slower, task)
         return rates, share, task, damp - BLUNT
 

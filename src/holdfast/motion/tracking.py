@@ -6,26 +6,26 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any, Literal
 
-import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
-from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
 from holdfast.motion.events import Course, Curvature, find_events
+from holdfast.motion.integration import integrate
+from holdfast.motion.nearness import Room
 from holdfast.motion.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.motion.resolution import Resolution, chosen_task
 from holdfast.motion.trajectory import Trajectory
-from holdfast.notice import Count, says
+from holdfast.notice import says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
-from holdfast.solvers.inverse_kinematics import clipped, solve_ik, solver, tool_error
+from holdfast.solvers.inverse_kinematics import solve_ik, solver
 from holdfast.solvers.optima import optimise
 
 Array = NDArray[np.float64]
@@ -34,13 +34,11 @@ TRACKING = ("gradient-projection", "extended-jacobian")  # these stay at a local
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
 _STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
-_SETTLING = 400  # steps before the first
 _SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
 _FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
 _PROBES = 64
-_CATCH_UP = 3.0  # times the largest twist of the path
-_BLOCK = 500  # steps after which somebody is told of them
 _AT = 1e-6  # rad and m from a limit
+_AWAY = 100  # steps: time constant with which the room to what is near may shrink
 _GRID = 101  # poses whose whole manifold is traced
 
 
@@ -65,6 +63,9 @@ def follow(
     best: bool = False,
     spacing: float = 0.05,
     torque_bound: float | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    margin: float = 0.0,
 ) -> Trajectory:
     """Joint motion along a timed path of the end effector, with redundancy resolution.
 
@@ -93,10 +94,17 @@ def follow(
         spacing: Of the points on these manifolds, rad.
         torque_bound: If given, N m and N, the result says how slow the motion must be for its torques to stay this close to
             gravity's; see :meth:`Trajectory.slowness`.
+        clearance: Keep the links of the arm apart by self-motion; not looked at if not given. True: capsules of an assumed
+            radius.
+        cell: Objects around the arm, or their file, to keep clear of in the same way; the links are then kept apart as well,
+            but for an arm that moves in a plane and with ``clearance=False``.
+        margin: Smallest clearance, m; from an object beyond what the cell keeps from it. The room beyond it shrinks no faster
+            than to 1/e within 0.5 % of the duration: a limit as those of the joints, of whatever is nearest. Where the
+            self-motion leaves no way to keep it the end effector is slowed, and stops.
 
     Raises:
         ArmError: A torque_bound for an arm without inertial data.
-        InputError: Not exactly one objective, a start that is not on the first pose, options out of range.
+        InputError: Not exactly one objective, a start that is not on the first pose or not clear, options out of range.
         TaskError: No redundancy, or an objective of another task.
         HoldfastError: No configuration of the first pose was found.
 
@@ -110,9 +118,14 @@ def follow(
         raise InputError(f"method '{method}' is not known; use one of {', '.join(METHODS)}")
     if rate_cap is not None and not rate_cap > 0:
         raise InputError(f"rate_cap is {rate_cap:g}; it must be above 0, or None")
+    if not np.isfinite(margin):
+        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
+    kept = chosen_clearance(arm, clearance, cell, looks=False)
+    if kept is None and margin:
+        raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")
     time = np.linspace(0.0, path.duration, samples)
     poses = path.pose(time)
-    start = _start(arm, objective, chosen, poses[0], q, seed)
+    start = _start(arm, objective, chosen, poses[0], q, seed, kept, margin)
     curvature = Curvature(objective, chosen)
     substeps = -(-_STEPS // (samples - 1))
     step = path.duration / (samples - 1) / substeps
@@ -135,16 +148,21 @@ def follow(
     if wanted is not None and keep is None:
         raise InputError(f"wanted is what the augmented Jacobian keeps; {method} does not, leave it out")
     settle = q is None and method in TRACKING
-    joints, rates, shares = _integrate(law, path, start, (samples - 1) * substeps, step, limits, settle)
+    room = None if kept is None else Room(kept, margin, 1 / (_AWAY * step))
+    joints, rates, shares = integrate(law, path, start, (samples - 1) * substeps, step, limits, settle, room)
     course = _course(arm, objective, curvature, path.duration, joints, rates, shares, limits)
     limited = f"the rate cap of {cap:.4g} rad/s" if cap == rate_cap else f"the finest step of {_FARTHEST:g} rad"
-    happened = find_events(objective, course, method in TRACKING, keep, limited)
+    near = None if room is None else room.along(joints)
+    happened = find_events(objective, course, method in TRACKING, keep, limited, near)
     fastest = int(course.rate_norm.argmax())
     few = slice(None, None, substeps)
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
-    best_value, best_q = _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed) if best else (None, None)
+    best_value, best_q = (
+        _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed, kept, margin) if best else (None, None)
+    )
     alike: dict[str, Any] = {"minimise": minimise, "maximise": maximise, "rate_cap": rate_cap, "task": chosen, "q": start}
     alike |= {"samples": samples, "limits": limits, "damping": damping, "seed": seed}
+    alike |= {"clearance": kept, "margin": margin}
     found = Trajectory(
         arm=arm,
         task=chosen,
@@ -172,6 +190,8 @@ def follow(
         best_value=best_value,
         best_path=best_q,
         torque_bound=torque_bound,
+        clear_of=kept,
+        margin=margin,
         _plain=None if method == "none" else partial(follow, arm, path, method="none", **alike),
     )
     if torque_bound is not None:
@@ -214,10 +234,21 @@ def _objective(minimise: Objective | None, maximise: Objective | None) -> Object
     return maximise if maximise.better == "larger" else maximise.reversed()
 
 
-def _start(arm: Arm, objective: Objective, task: Task, first: Array, q: ArrayLike | None, seed: int) -> Array:
+def _start(
+    arm: Arm,
+    objective: Objective,
+    task: Task,
+    first: Array,
+    q: ArrayLike | None,
+    seed: int,
+    kept: Clearance | None,
+    margin: float,
+) -> Array:
     """Where to start: given, or the best configuration of the first pose."""
     if q is None:
-        found = optimise(arm, first, objective, seed=seed, task=task)
+        found = optimise(arm, first, objective, seed=seed, task=task, clearance=kept, margin=margin)
+        if not found.success and kept is not None:
+            found.require_ok()
         if not found.success:
             raise HoldfastError(
                 f"no configuration of '{arm.name}' was found for the first pose of the path, within its joint limits: move the "
@@ -234,6 +265,8 @@ def _start(arm: Arm, objective: Objective, task: Task, first: Array, q: ArrayLik
             f"the start q is {position:.3g} m and {rotation:.3g} rad from the first pose of the path, or outside the joint "
             "limits; leave it out to have one found"
         )
+    if kept is not None and float(kept.room(start)) < margin:
+        raise InputError(f"at the start q the arm {kept.too_close(margin, start)}; leave it out to have one found")
     return start
 
 
@@ -253,65 +286,6 @@ def _gain(method: str, curvature: Curvature, poses: Array, step: float, seed: in
     return rate / typical if typical > 0 else 0.0
 
 
-def _integrate(
-    law: Resolution, path: TimedPath, start: Array, count: int, step: float, limits: bool, settle: bool
-) -> tuple[Array, Array, Array]:
-    """Joints (N + 1, n), rates (N + 1, n) and shares (N + 1, 3) at N steps and the end: see :class:`holdfast.motion.Rates`.
-
-    In each step the end effector is sent to where the path is at its end, so that errors do not add up.
-    """
-    # An end effector that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
-    fastest = float(np.linalg.norm(path.twist((np.arange(count) + 0.5) * step), axis=1).max())
-    kernel = _step_kernel(law, step, limits, _CATCH_UP * fastest * step)
-    if settle:  # what a search left open would be made up for at once, with rates that no motion needs
-        start = _run(kernel, start, np.broadcast_to(path.pose(0.0), (_SETTLING, 4, 4)), step)[0][-1]
-    joints, rates, shares = _run(kernel, start, path.pose(np.arange(1, count + 1) * step), step)
-    n = law.arm.n
-    last = kernel.rows(joints[-1], np.zeros(3), np.eye(3), path.twist(path.duration), 1.0)[0]
-    return joints, np.vstack([rates, last[n : 2 * n]]), np.vstack([shares, last[2 * n :]])
-
-
-def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Array, Array, Array]:
-    """Joints (N + 1, n), rates (N, n) and shares (N, 3) from a start (n,) after targets (N, 4, 4)."""
-    count, n = len(targets), len(start)
-    data = np.concatenate([targets[:, :3, 3], targets[:, :3, :3].reshape(count, 9)], axis=1)[:, :, None]
-    columns = np.zeros((n + 19, kernel.lanes))
-    out = np.zeros((2 * n + 3, kernel.lanes))
-    once, steps = kernel.bound(columns, out), np.empty((count, len(out)))
-    columns[:n] = start[:, None]
-    with Count("steps of the motion", count) as tell:
-        for first in range(0, count, _BLOCK):
-            last = min(first + _BLOCK, count)
-            for k in range(first, last):
-                columns[n : n + 12] = data[k]
-                once()
-                steps[k] = out[:, 0]
-                columns[:n] = out[:n]
-            tell(last - first)
-    broken = ~np.isfinite(steps).all(axis=1)
-    if broken.any():
-        raise HoldfastError(
-            f"the motion breaks down at {broken.argmax() * step:.4g} s: the arm is exactly singular there; start elsewhere"
-        )
-    return np.vstack([start, steps[:, :n]]), steps[:, n : 2 * n], steps[:, 2 * n :]
-
-
-@recalled
-def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) -> Kernel:
-    """From q and a target pose, or a twist if ``given`` is 1, to the next q, the rates to it, and the shares."""
-    arm = law.arm
-    q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-    twist, given = ca.SX.sym("twist", 6), ca.SX.sym("given")
-    chain = kinematics.chain(arm, q)
-    error = tool_error(law.task, chain.position, chain.rotation, p, r)
-    size = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
-    out = law.expression(q, ca.if_else(given, twist, error * ca.if_else(size > farthest, farthest / size, 1) / step))
-    following = q + step * out[: arm.n]
-    if limits:
-        following = clipped(arm, ca.vertsplit(following))
-    return Kernel(f"step of {law.name}", [q, p, r, twist, given], [ca.vertcat(following, out)])
-
-
 def _best(
     arm: Arm,
     objective: Objective,
@@ -321,8 +295,13 @@ def _best(
     rate_cap: float | None,
     spacing: float,
     seed: int,
+    kept: Clearance | None,
+    margin: float,
 ) -> tuple[Array, Array]:
-    """Best value of each pose and the best continuous motion, on a coarser grid of poses, brought back to all samples."""
+    """Best value of each pose and the best continuous motion, on a coarser grid of poses, brought back to all samples.
+
+    Of configurations that are clear, if that is asked for.
+    """
     sign = -1.0 if objective.better == "larger" else 1.0
     few = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _GRID)).astype(int))
     fastest = np.array([j.velocity for j in arm.joints])
@@ -330,7 +309,12 @@ def _best(
         fastest = np.minimum(fastest, rate_cap)
     # Where a joint has no limit, the path's own default says what counts as continuous.
     limit = fastest * float(np.diff(time[few]).max()) if np.isfinite(fastest).all() else None
-    found = best_path(arm, poses[few], lambda q: sign * objective(q), task=task, spacing=spacing, rate_limit=limit, seed=seed)
+
+    def cost(q: Array) -> Array:
+        value = sign * np.asarray(objective(q))
+        return value if kept is None else np.where(kept.room(q) >= margin, value, np.nan)
+
+    found = best_path(arm, poses[few], cost, task=task, spacing=spacing, rate_limit=limit, seed=seed)
     values = np.interp(time, time[few], sign * found.global_value)
     motion = np.stack([np.interp(time, time[few], column) for column in found.q.T], axis=1)
     return values, motion

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
+from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.files.output import guarded, writing
 from holdfast.files.spreadsheet import cell
@@ -32,7 +33,8 @@ class Event:
 
     Attributes:
         kind: ``algorithmic singularity``, ``not at an extremum``, ``fast motion``, ``zero cost``, ``value not kept``,
-            ``value jump``, ``rate cap``, ``joint limit``, ``end effector slowed`` or ``near a singularity``.
+            ``value jump``, ``rate cap``, ``joint limit``, ``end effector slowed``, ``near a singularity``, ``kept clear`` (of
+            an object, or of the arm itself, by self-motion) or ``too near`` (closer than asked for).
         start, end: From when to when, s.
         text: One sentence for people.
     """
@@ -71,6 +73,8 @@ class Trajectory(Result):
         best_value: (T,) the best value over the whole self-motion manifold of each pose, or None if it was not asked for.
         best_path: (T, n) the best continuous motion through these manifolds, NaN where there is none; or None.
         torque_bound: By which the report and :meth:`to_dict` judge whether the motion is slow enough, N m and N; or None.
+        clear_of: What the motion was to keep clear of, itself and its cell, or None.
+        margin: How far at least, beyond what the cell keeps, m.
     """
 
     arm: Arm
@@ -99,12 +103,27 @@ class Trajectory(Result):
     best_value: Array | None = None
     best_path: Array | None = None
     torque_bound: float | None = field(default=None, kw_only=True)
+    clear_of: Clearance | None = None
+    margin: float = 0.0
     _plain: Callable[[], Trajectory] | None = field(default=None, repr=False)
 
     @property
     def rate_norm(self) -> Array:
         """(T,) norm of the joint rates, rad/s (prismatic joints in m/s)."""
         return np.asarray(np.linalg.norm(self.qd, axis=1))
+
+    @cached_property
+    def clearance(self) -> Array | None:
+        """(T,) smallest distance from what the motion keeps clear of, m; a lower bound for objects. None if nobody looked."""
+        return None if self.clear_of is None else self.clear_of(self.q)
+
+    @property
+    def nearest(self) -> tuple[int, str] | None:
+        """The sample of the smallest clearance and the pair that has it, ``joint3 & table``; None if there is no pair."""
+        if self.clear_of is None or self.clearance is None or not self.clear_of.pair_names:
+            return None
+        k = int(self.clearance.argmin())
+        return k, self.clear_of.pair_names[int(self.clear_of.by_pair(self.q[k]).argmin())]
 
     @cached_property
     def without(self) -> Trajectory | None:
@@ -183,6 +202,8 @@ class Trajectory(Result):
                 table[f"{joint.name}_{measure.slug}_{unit}"] = column
         if self.best_value is not None:
             table["best_objective"] = self.best_value
+        if self.clearance is not None:
+            table["clearance_m"] = self.clearance
         return table
 
     def to_csv(self, path: str | Path) -> Path:
@@ -233,6 +254,9 @@ class Trajectory(Result):
             f"mean {self.value.mean():.4g}, range {self.value.min():.4g} to {self.value.max():.4g}",
             f"largest norm of the joint rates {self.peak_rate:.4g} rad/s at {self.peak_time:.4g} s",
         ]
+        if self.nearest is not None and self.clearance is not None:
+            k, pair = self.nearest
+            lines.append(f"smallest clearance {1000 * self.clearance[k]:.4g} mm ({pair}) at {self.time[k]:.4g} s")
         return lines + [e.text for e in self.events]
 
 

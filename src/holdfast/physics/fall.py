@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.cell.cell import Cell
 from holdfast.clearance.contacts import Contact
 from holdfast.files.output import write_table
 from holdfast.result import Result
@@ -69,6 +70,7 @@ class FreeSwing(Result):
         outcome: ``rest`` (hangs still), ``stop`` (lies against a limit), ``contact`` (lies against an object), ``balanced``
             (gravity does not move it) or ``moving`` (not at rest in the time given).
         drops: One per brake time.
+        cell: The objects around the arm, or None.
         contacts: First of each link with each object of the cell, in order of time; None without a cell.
     """
 
@@ -85,6 +87,7 @@ class FreeSwing(Result):
     initial_acceleration: float
     outcome: Outcome
     drops: tuple[BrakedDrop, ...]
+    cell: Cell | None = None
     contacts: tuple[Contact, ...] | None = None
 
     @property

@@ -120,6 +120,7 @@ def free_swing(
         initial_acceleration=swing.acceleration,
         outcome=outcome,
         drops=tuple(_drop(t, time, angle, velocity, tool, arm.gravity) for t in brakes),
+        cell=None if around is None else around.cell,
         contacts=touches.contacts(),
     )
 

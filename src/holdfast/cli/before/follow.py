@@ -9,6 +9,15 @@ import numpy as np
 import typer
 
 import holdfast as hf
+from holdfast.cli.clearance import (
+    CapsulesOption,
+    CellOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_clearance,
+)
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
@@ -32,6 +41,7 @@ from holdfast.present.results import printed, said
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
+    from holdfast.clearance.clearance import Clearance
     from holdfast.paths.timed_path import TimedPath
 
 
@@ -95,6 +105,11 @@ def command(
             show_default=False,
         ),
     ] = None,
+    cell: CellOption = None,
+    clearance: ClearanceOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    margin: MarginOption = None,
     no_limits: Annotated[bool, typer.Option("--no-limits", help="Ignore joint limits while moving.")] = False,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
     mount: MountOption = "floor",
@@ -118,6 +133,7 @@ def command(
     """
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
+    check_clearance(clearance, capsules, radius, margin, cell)
     model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     timed = hf.paths.TimedPath.load(path, duration)
     check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
@@ -140,6 +156,8 @@ def command(
         seed=seed,
         best=best,
         torque_bound=torque_bound,
+        clearance=_kept(model, clearance, capsules, radius, margin, cell),
+        margin=margin or 0.0,
     )
     files = [] if csv is None else [result.to_csv(csv)]
     if parquet is not None:
@@ -147,6 +165,15 @@ def command(
     if out is not None:
         files += result.save(out, command=said())
     printed(result, json_, files)
+
+
+def _kept(
+    arm: Arm, wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, cell: Path | None
+) -> Clearance | None:
+    """What the motion keeps clear of: nothing unless an option asks for it."""
+    if cell is None and not wanted and capsules is None and radius is None and margin is None:
+        return None
+    return read_clearance(arm, wanted, capsules, radius, margin, chooses=True, cell=cell)
 
 
 def _task(path: TimedPath, arm: Arm) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.motion.trajectory import Array, Trajectory
+from holdfast.present.clearance.shape import shape_summary
 from holdfast.present.printing import Rows, alike, number
 from holdfast.words import capitalised
 
@@ -39,6 +40,10 @@ def to_dict(t: Trajectory) -> dict[str, Any]:
         "q_end": dict(zip(names, t.q[-1], strict=True)),
         "events": [{"kind": e.kind, "start_s": e.start, "end_s": e.end, "text": e.text} for e in t.events],
     }
+    if t.clear_of is not None and t.clearance is not None and t.nearest is not None:
+        k, pair = t.nearest
+        data["least_clearance"] = {"m": t.clearance[k], "pair": pair, "at_s": t.time[k]}
+        data["clearance"] = shape_summary(t.clear_of, t.margin)
     if t.torque_bound is not None:
         scales = [s.time_scale for s in t.slowness(t.torque_bound)]
         data["torque_bound"] = t.torque_bound
@@ -55,6 +60,9 @@ def key_table(t: Trajectory) -> Rows:
         ["largest norm of the joint rates", f"{number(t.peak_rate)} rad/s at {number(t.peak_time)} s"],
         ["end effector off its path by at most", t.tool_error],
     ]
+    if t.clearance is not None and t.nearest is not None:
+        k, pair = t.nearest
+        rows.append(["smallest clearance", f"{number(1000 * t.clearance[k])} mm, {pair}"])
     return Rows(["", ""], rows)
 
 

@@ -14,6 +14,7 @@ from holdfast.motion.slowness import SlowMotion
 from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.notice import says
 from holdfast.present.arm.view import scene
+from holdfast.present.clearance.shape import shape_text
 from holdfast.present.printing import number
 from holdfast.present.story import how
 from holdfast.report import page
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 _FRAMES = 201
 _SAME, _FOLD = 5e-3, 10.0  # changes that are none, and those that a fraction would not tell
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+_SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump", "too near"}
 
 
 def figures(t: Trajectory) -> dict[str, Figure]:
@@ -65,6 +66,7 @@ def build(t: Trajectory, command: str = "") -> Page:
         Section("The motion", f.motion()),
         Section(f"{capitalised(t.objective.name)} along the path", f.criterion()),
         Section("What happened", f.events()),
+        Section("Clearance", f.clearance()),
         Section("Joint rates", f.rates()),
         Section("Joint positions", f.joints()),
         Section("Torques, and how slow is slow enough", f.torques(slowness)),
@@ -136,6 +138,8 @@ class _Facts:
             ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
             ("End effector off its path by at most", t.tool_error),
         ]
+        if t.clearance is not None and t.nearest is not None:
+            rows.append(("Smallest clearance", f"{1000 * t.clearance[t.nearest[0]]:.4g} mm, {t.nearest[1]}"))
         if t.rate_cap is not None:
             rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))
         if (t.task_share < 1 - 1e-9).any():
@@ -160,6 +164,7 @@ class _Facts:
             time=np.linspace(t.time[0], t.time[-1], len(few)),
             path=t.poses[few, :3, 3],
             readings=readings,
+            cell=None if t.clear_of is None else t.clear_of.cell,
         )
         caption = "The arm on its path (orange)."
         if plain is not None:
@@ -237,6 +242,17 @@ class _Facts:
             panels.append(Timeline(lines, unit, joint.name))
         image = small_multiples(t.time, panels, "Joint positions over time")
         return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
+
+    def clearance(self) -> list[Block]:
+        """How far the arm was from what it keeps clear of."""
+        t = self.t
+        if t.clear_of is None or t.clearance is None or t.nearest is None:
+            return []
+        lines = [Line(1000 * t.clearance, "smallest distance", "first")]
+        kept = 1000 * (t.margin + float(t.clear_of.margins.max(initial=0.0)))
+        lines.append(Line(np.full(len(t.time), kept), "to be kept", "level"))
+        caption = f"Smallest distance of any pair, nearest: {t.nearest[1]}. {capitalised(shape_text(t.clear_of, t.margin))}."
+        return [self._figure([Timeline(lines, "mm", "Smallest distance")], "Clearance over time", caption)]
 
     def torques(self, slowness: list[SlowMotion] | None) -> list[Block]:
         """Torques that hold the arm, and those of the motion at three speeds."""
@@ -353,6 +369,7 @@ class _Facts:
             ("Objective", f"{t.objective.name}, {t.objective.better} is better"),
             ("Task", t.task.describe()),
             ("Gain", as_given(t.gain)),
+            ("Kept clear", "nothing" if t.clear_of is None else shape_text(t.clear_of, t.margin)),
             ("Rate cap", "none" if t.rate_cap is None else f"{t.rate_cap:g} rad/s"),
             ("Steps", f"{t.steps:,} of {t.time[-1] / t.steps:.3g} s; {len(t.time):,} samples of them are kept"),
             ("Without the objective", "least-norm rates, from the same configuration; everything else alike"),

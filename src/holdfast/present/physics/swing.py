@@ -195,7 +195,12 @@ def _moving(swing: FreeSwing) -> list[tuple[str, list[Any]]]:
         for t, x in zip(time, q[:, swing.joint] - swing.q[swing.joint], strict=True)
     ]
     words = f"{swing.arm.joint_names[swing.joint]} swinging free, all other joints held."
-    return [("The swing", [Picture(scene(swing.arm, q, time=time, readings=readings).html("motion", words), words)])]
+    return [
+        (
+            "The swing",
+            [Picture(scene(swing.arm, q, time=time, readings=readings, cell=swing.cell).html("motion", words), words)],
+        )
+    ]
 
 
 def figures(swing: FreeSwing) -> dict[str, Figure]:

@@ -237,6 +237,7 @@ class _RunReport:
             path=[seen.x[0], self.goal],
             targets=[self.goal],
             readings=readings,
+            cell=None if self.runs.clearance is None else self.runs.clearance.cell,
         )
         caption = "The arm moving; joints turn orange when they lock. Orange line: the straight way to the target."
         if seen.time[-1] < 0.99 * float(self._of("time")):
@@ -274,7 +275,7 @@ class _RunReport:
         seen, label = self.seen, "smallest distance, m"
         moments = tuple((c.time, 0.0, f"{c.link} & {c.object}") for c in self.contacts[:1] if c.time <= seen.time[-1])
         panel = Panel(seen.time, clearance(seen.q), label, "The arm and what it may touch", (0.0, "touches"), moments)
-        figure = motion_figure([panel], self.caption, self._xlabel)
+        figure = motion_figure([panel], "", self._xlabel)
         about = f"Below 0 the arm touches something. {capitalised(shape_text(clearance, 0.0))}."
         image = svg(figure, "clearance", "Smallest distance of the arm from what it may touch over time")
         table = [as_table(contact_table(self.contacts, self.unit))] if self.contacts else [Text("It touches nothing.")]

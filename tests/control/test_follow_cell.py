@@ -1,0 +1,144 @@
+"""Paths followed clear of a cell: coal and finely sampled motions as judges, and MuJoCo's distance where spheres are exact."""
+
+from __future__ import annotations
+
+import csv
+
+import numpy as np
+import pytest
+
+import cells
+import holdfast as hf
+from holdfast.cell import Box, Cell, Sphere
+from holdfast.clearance import Capsule, Capsules, Clearance
+
+MARGIN = 0.01  # m
+START = np.array([-0.6, -0.5, 0, -2.2, 0, 1.7, 0.8])
+
+
+@pytest.fixture(scope="module")
+def panda() -> hf.Arm:
+    return hf.arms.load("panda")
+
+
+@pytest.fixture(scope="module")
+def path(panda):
+    at = panda.forward_kinematics(START)[:3, 3]
+    line = hf.paths.line(at, at * [1, -1, 1])
+    return hf.paths.TimedPath(line, hf.paths.Trapezoid(5.0))
+
+
+@pytest.fixture(scope="module")
+def wish(panda):
+    """Least-norm rates from a configuration of the first pose: all self-motion there is comes of the cell."""
+    return {
+        "minimise": hf.susceptibility.acceleration(panda, np.eye(7)[3]),
+        "method": "none",
+        "task": "position",
+        "samples": 101,
+        "q": START,
+    }
+
+
+@pytest.fixture(scope="module")
+def plain(panda, path, wish):
+    return hf.follow(panda, path, **wish)
+
+
+@pytest.fixture(scope="module")
+def clearance(panda, plain):
+    """A ball that the forearm of the plain motion goes through."""
+    elbow, wrist = panda.frames(plain.q[60])[[4, 6], :3, 3]
+    at = 0.3 * elbow + 0.7 * wrist + [0, 0.05, 0.12]
+    cell = Cell([Sphere("ball", 0.08, pose=cells.placed(*at))], margin=MARGIN)
+    return Clearance(panda, Capsules.along(panda, 0.06), cell, itself=False)
+
+
+@pytest.fixture(scope="module")
+def motion(panda, path, wish, clearance):
+    return hf.follow(panda, path, clearance=clearance, **wish)
+
+
+def test_the_self_motion_keeps_clear_of_a_ball_that_it_would_hit(panda, plain, motion, clearance):
+    fine = cells.finely(motion.q)
+    assert clearance.room(cells.finely(plain.q)).min() < -0.02
+    assert clearance.room(fine).min() > -1e-4
+    assert motion.on_path
+    assert (motion.task_share > 0.99).all()
+    # coal, with the capsules themselves.
+    assert cells.touches(panda, clearance.capsules, clearance.cell, plain.q).any()
+    assert not cells.touches(panda, clearance.capsules, clearance.cell, fine[::4]).any()
+    # Until it comes near it is the motion without the ball.
+    early = plain.time < 0.5
+    np.testing.assert_allclose(motion.q[early], plain.q[early], atol=1e-9)
+
+
+def test_the_motion_says_what_it_kept_clear_of(motion, clearance, tmp_path):
+    kept = [e for e in motion.events if e.kind == "kept clear"]
+    assert kept
+    assert any("clear of ball, by the 10 mm that are asked for" in e.text for e in kept)
+    np.testing.assert_allclose(motion.clearance, clearance(motion.q))
+    data = motion.to_dict()
+    assert data["least_clearance"]["m"] == pytest.approx(motion.clearance.min())
+    assert data["least_clearance"]["pair"].endswith("& ball")
+    assert data["clearance"]["cell"]["objects"] == ["ball"]
+    with motion.to_csv(tmp_path / "motion.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["clearance_m"]) for row in rows] == motion.clearance.tolist()
+    assert any(line.startswith("smallest clearance 10") for line in motion.describe())
+
+
+def test_a_cell_out_of_reach_changes_no_motion(panda, path, wish, plain):
+    far = Cell([Box("far", [1, 1, 1], pose=cells.placed(5, 0, 0))])
+    told = hf.follow(panda, path, clearance=False, cell=far, **wish)
+    np.testing.assert_allclose(told.q, plain.q, atol=1e-9)
+    assert [e.kind for e in told.events] == [e.kind for e in plain.events]
+    assert told.clearance.min() > 2
+
+
+def test_where_the_self_motion_has_no_way_out_the_end_effector_stops_before_the_object():
+    """The tip of a planar arm is led into a wall: position and orientation of the tip are prescribed but for its turn."""
+    arm = hf.arms.load("planar-3r")
+    tip = Capsules((Capsule(2, (1, 0, 0), (1, 0, 0), radius=0.05),))
+    wall = Cell([Box("wall", [1, 6, 1], pose=cells.placed(2.3, 0, 0))], margin=0.02)  # its face is at 1.8 m
+    line = hf.paths.TimedPath(hf.paths.line([1.2, 0.3, 0], [2.2, 0.3, 0]), hf.paths.Trapezoid(4.0))
+    wish = {"minimise": hf.susceptibility.torque(arm, "worst-case"), "task": "planar", "samples": 101}
+    motion = hf.follow(arm, line, clearance=Clearance(arm, tip, wall, itself=False), margin=0.01, **wish)
+    x = arm.forward_kinematics(motion.q)[:, 0, 3]
+    assert x.max() == pytest.approx(1.8 - 0.05 - 0.02 - 0.01, abs=1e-3)
+    assert x.max() <= 1.72 + 1e-6
+    assert not motion.on_path
+    slowed = next(e for e in motion.events if e.kind == "end effector slowed")
+    assert "wall leaves joint3 no motion that keeps up" in slowed.text
+    # On the line the tip is 0.3 m above the axis: it stops when the path passes there, however late.
+    assert slowed.start == pytest.approx(np.interp(1.72, line.pose(motion.time)[:, 0, 3], motion.time), abs=0.15)
+
+
+def test_the_best_motion_drops_configurations_that_are_not_clear():
+    arm = hf.arms.load("planar-3r")
+    line = hf.paths.TimedPath(hf.paths.line([1.4, 0.2, 0], [1.4, 0.8, 0]), hf.paths.Trapezoid(4.0))
+    wish = {
+        "minimise": hf.susceptibility.torque(arm, "worst-case"),
+        "task": "planar",
+        "samples": 31,
+        "best": True,
+        "spacing": 0.1,
+    }
+    free = hf.follow(arm, line, **wish)
+    at = arm.frames(free.best_path[15])[2, :3, 3]
+    cell = Cell([Sphere("ball", 0.1, pose=cells.placed(*at))], margin=MARGIN)
+    clearance = Clearance(arm, Capsules.along(arm, 0.05), cell, itself=False)
+    told = hf.follow(arm, line, clearance=clearance, **wish)
+    assert clearance.room(free.best_path).min() < 0
+    found = np.isfinite(told.best_path).all(axis=1)
+    assert found.any()
+    assert clearance.room(told.best_path[found]).min() >= -1e-12  # every sample is a pose of the grid
+    assert (told.best_value >= free.best_value - 1e-9).all()
+
+
+def test_starts_and_margins_that_keep_nothing_are_refused(panda, path, wish, plain, clearance):
+    inside = Cell([Sphere("ball", 0.1, pose=cells.placed(*panda.frames(plain.q[0])[4, :3, 3]))])
+    with pytest.raises(hf.errors.InputError, match=r"at the start q the arm .*panda_joint\d & ball"):
+        hf.follow(panda, path, clearance=False, cell=inside, **wish)
+    with pytest.raises(hf.errors.InputError, match="margin has nothing to keep"):
+        hf.follow(panda, path, margin=0.1, **wish)
