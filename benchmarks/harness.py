@@ -36,6 +36,9 @@ PACKAGES = (
     "pytracik",
     "pin-pink",
     "mink",
+    "mujoco",
+    "coal",
+    "python-fcl",
     "daqp",
     "proxsuite",
 )

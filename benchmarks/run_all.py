@@ -23,6 +23,7 @@ WORKLOADS = (
     "w10_teleop",
     "w13_design",
     "w14_first_use",
+    "w15_cells",
     "spectral",
     "memory",
 )

@@ -119,6 +119,6 @@ def test_a_changed_cell_compiles_nothing(rng, scene):
     arm, capsules, cell = scene
     first = hf.Clearance(arm, capsules, cell, itself=False)
     second = hf.Clearance(arm, capsules, random_cell(rng, 3), itself=False)
-    made = first.obstacles._distance_kernel.made_of
+    made = first.obstacles._formulas._distance_kernel.made_of
     assert made is not None
-    assert made == second.obstacles._distance_kernel.made_of
+    assert made == second.obstacles._formulas._distance_kernel.made_of

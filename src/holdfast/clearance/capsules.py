@@ -37,6 +37,7 @@ from holdfast.errors import ArmError, InputError
 
 if TYPE_CHECKING:
     from holdfast.clearance.capsule_file import Entry
+    from holdfast.clearance.shape import Shape
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -99,6 +100,7 @@ class Capsules:
         ignore: Pairs of links, the smaller index first, that are never checked against each other.
         apart: Pairs of positions in ``parts``, the smaller first, that are never checked against each other.
         source: Where they come from, for people; empty for those that were given or assumed.
+        shape: What they cover, if that is known; else they are the shape itself. Files and results do not hold it.
         held: How many of the last parts are no part of the arm but something that it holds.
     """
 
@@ -106,6 +108,7 @@ class Capsules:
     ignore: tuple[tuple[int, int], ...] = ()
     apart: tuple[tuple[int, int], ...] = field(default=(), kw_only=True)
     source: str = field(default="", compare=False, kw_only=True)
+    shape: Shape | None = field(default=None, compare=False, repr=False, kw_only=True)
     held: int = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -258,6 +261,21 @@ def assumed_radius(arm: Arm) -> float:
     if total < _POINT:
         raise ArmError(f"the links of '{arm.name}' have no length, so no capsule lies along them; give its capsules")
     return _SHARE * total
+
+
+@dataclass(frozen=True)
+class IgnoredPair:
+    """Two capsules that are not checked against each other.
+
+    Attributes:
+        pair: Positions in ``capsules.parts``.
+        name: As in ``pair_names``.
+        reason: Why, for people.
+    """
+
+    pair: tuple[int, int]
+    name: str
+    reason: str
 
 
 def link_name(arm: Arm, link: int) -> str:

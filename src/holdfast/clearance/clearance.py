@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
-from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -18,8 +18,9 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
-from holdfast.clearance.capsules import Capsules
+from holdfast.clearance.capsules import Capsules, IgnoredPair
 from holdfast.clearance.changes import changes_between
+from holdfast.clearance.exact.exactness import Exactness
 from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
@@ -34,21 +35,6 @@ Pair = tuple[int, int]
 
 _SAMPLES = 512  # configurations
 _ALWAYS = 0.95  # pairs that overlap in this share of them touch by construction
-
-
-@dataclass(frozen=True)
-class IgnoredPair:
-    """Two capsules that are not checked against each other.
-
-    Attributes:
-        pair: Positions in ``capsules.parts``.
-        name: As in ``pair_names``.
-        reason: Why, for people.
-    """
-
-    pair: Pair
-    name: str
-    reason: str
 
 
 class Clearance:
@@ -113,10 +99,12 @@ class Clearance:
 
     def with_cell(self, cell: Cell | None) -> Clearance:
         """The same clearance in another cell; the arm's own pairs are chosen again only where it holds something else."""
-        before, after = (() if x is None else x.held for x in (self.cell, cell))
-        if before != after:
-            return Clearance(self.arm, self.capsules, cell, itself=self.itself)
+        same = getattr(self.cell, "held", ()) == getattr(cell, "held", ())
+        return self._in(cell) if same else Clearance(self.arm, self.capsules, cell, itself=self.itself)
+
+    def _in(self, cell: Cell | None) -> Clearance:
         other = copy(self)
+        vars(other).pop("_exactness", None)
         other._meet(cell)
         return other
 
@@ -243,12 +231,7 @@ class Clearance:
     @cached_property
     def alone(self) -> Clearance:
         """The same without the cell: what programs are made of, so that for a changed cell none is made anew."""
-        if self.cell is None:
-            return self
-        made = copy(self)
-        made.cell = made.obstacles = None
-        made.pair_names, made.margins = self.pair_names[: len(self.pairs)], self.margins[: len(self.pairs)]
-        return made
+        return self if self.cell is None else self._in(None)
 
     @cached_property
     @recalled
@@ -312,6 +295,32 @@ class Clearance:
             values = np.minimum(values, self.obstacles.room(rows))
         return values[0] if single else values
 
+    @cached_property
+    def _exactness(self) -> Exactness:
+        ignored, alone, held = [x.pair for x in self.ignored], self.alone, () if self.cell is None else self.cell.held
+        return Exactness(self.arm, self.capsules, (alone, alone.by_pair), self.pairs, ignored, self.obstacles, held)
+
+    def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
+        """Whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules cover.
+
+        Margins do not count, less than 1e-6 m may, and a row that is not finite is not clear. Needs python-fcl or coal.
+        """
+        return self._of_rows(q, self._exactness.clear)
+
+    def exact(self, q: ArrayLike) -> Array:
+        """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is."""
+        return self._of_rows(q, self._exactness.distances)
+
+    def _of_rows(self, q: ArrayLike, ask: Callable[[Array], NDArray[Any]]) -> NDArray[Any]:
+        rows, single = as_configurations(self.arm, q)
+        values = ask(rows)
+        return values[0] if single else values
+
+    @property
+    def exact_by(self) -> str:
+        """The library that :meth:`exact` asks, and how right it is: ``coal 3.0.3, to 0.001 mm``."""
+        return self._exactness.library
+
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
         """Position in ``pair_names`` of the pair with the least room, the first of several, (N,) or a scalar.
 
@@ -330,9 +339,7 @@ class Clearance:
         Where two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two
         axes cross, which is a kink, and NaN where q is.
         """
-        rows, single = as_configurations(self.arm, q)
-        g = self.nearest(rows)[1]
-        return g[0] if single else g
+        return self._of_rows(q, lambda rows: self.nearest(rows)[1])
 
     def nearest(self, q: Array) -> tuple[Array, Array]:
         """Room (N,) m and its gradient (N, n) of configurations (N, n)."""
@@ -379,17 +386,13 @@ class Clearance:
         if q is not None:
             k = int(self.closest_pair(q))
             other, own = ("itself", False) if k < len(self.pairs) else ("the cell", bool(self.margins[k]))
-            where = f" ({self.pair_names[k]}, {_apart(float(self.by_pair(q)[k]))})"
+            where = f" ({self.pair_names[k]}, {abs(away := float(self.by_pair(q)[k])):.3g} m {'deep' if away < 0 else 'apart'})"
         if own:
             return f"comes closer to {other} than it may{where}"
         return (f"comes closer than {margin:g} m to {other}" if margin else f"collides with {other}") + where
 
     def __repr__(self) -> str:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
-
-
-def _apart(distance: float) -> str:
-    return f"{-distance:.3g} m deep" if distance < 0 else f"{distance:.3g} m apart"
 
 
 def _constant(rows: Array, value: float) -> Array:

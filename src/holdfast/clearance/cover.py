@@ -68,7 +68,8 @@ def cover_of(shape: Shape, arm: Arm, spheres_to: float = SPHERES_TO) -> Capsules
         for (a, (one, of)), (b, (other, of_other)) in combinations(enumerate(made), 2)
         if one.link != other.link and _unchecked(shape, of, of_other)
     ]
-    return Capsules(tuple(part for part, _ in made), apart=tuple(apart), source=_told(shape, arm, len(rows), mean, most))
+    told = _told(shape, arm, len(rows), mean, most)
+    return Capsules(tuple(part for part, _ in made), apart=tuple(apart), source=told, shape=shape)
 
 
 def _unchecked(shape: Shape, owners: list[str], others: list[str]) -> bool:

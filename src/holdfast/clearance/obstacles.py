@@ -7,8 +7,8 @@ up in their grids (:mod:`holdfast.clearance.objects.gridded`).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,20 +17,19 @@ from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.cell.meshes import Gridded
-from holdfast.cell.solids import Primitive
+from holdfast.cell.solids import Primitive, Solid
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
+from holdfast.clearance.exact.bodies import box_about
+from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
-from holdfast.kernels.kernel import Kernel
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _STEP = 1e-6  # m: for the direction away from an object
-_NOWHERE = 1e9  # m: how far away is what is not looked at
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -66,6 +65,7 @@ class Obstacles:
         pairs: (L K, 2) link and object of each pair: all objects of the first link, then of the next.
         margins: (L K,) what each pair keeps at least, m.
         names: Of the pairs, ``panda_joint4 & table``.
+        apart: (n + 1, K) whether a link, the base first, and an object may touch.
 
     Raises:
         InputError: The base touches an object, or ``may_touch`` names no object or link.
@@ -79,11 +79,11 @@ class Obstacles:
         self.pairs: Indices = np.stack(
             [np.repeat(self.links, count), np.tile(np.arange(count, dtype=np.int64), len(self.links))], axis=1
         )
-        own = np.array([cell.margin_of(solid) for solid in cell])
-        self.margins: Array = np.tile(own, len(self.links))
+        self._own_margins: Array = np.array([cell.margin_of(solid) for solid in cell])
+        self.margins: Array = np.tile(self._own_margins, len(self.links))
         names = [solid.name for solid in cell]
         self.names = [f"{link_name(arm, int(link))} & {names[k]}" for link, k in self.pairs]
-        self._formulas: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Primitive)], dtype=np.int64)
+        self._plain: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Primitive)], dtype=np.int64)
         self._grids: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Gridded)], dtype=np.int64)
         strange = next((x for x in cell if not isinstance(x, (Primitive, Gridded))), None)
         if strange is not None:
@@ -91,7 +91,7 @@ class Obstacles:
                 f"object '{strange.name}' is a {type(strange).__name__}, and no distance from one is known; "
                 f"make it one of the solids of holdfast.cell"
             )
-        self._apart = self._switched_off()
+        self.apart = self._switched_off()
         self._check_base()
 
     # ---- what is looked at ---------------------------------------------------------------------------------------
@@ -115,52 +115,38 @@ class Obstacles:
         Raises:
             InputError: It touches an object that it may not touch.
         """
-        for k, (solid, gap) in enumerate(zip(self.cell, base_gaps(self.arm, self.balls, self.cell), strict=True)):
-            if not self._apart[0, k] and gap < self.cell.margin_of(solid):
+        for k, solid in enumerate(self.cell):
+            margin = self.cell.margin_of(solid)
+            # A box about it is asked first: for what is far away no grid need be made.
+            if self.apart[0, k] or base_gaps(self.arm, self.balls, [box_about(solid)])[0] >= margin:
+                continue
+            (gap,) = base_gaps(self.arm, self.balls, [solid])
+            if gap < margin:
                 near = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
                 raise InputError(
                     f"the base of '{self.arm.name}' is {near} object '{solid.name}' of the cell, always; "
                     f"if it is mounted there, add may_touch: [[{solid.name}, base]]"
                 )
 
-    def _blocks(self, margins: bool) -> Array:
-        """(B, BLOCK, 18 + L) what the kernels take for each block of formulas: their numbers, and what is added for each link.
-
-        Args:
-            margins: Every object is larger by what is kept from it.
-        """
-        rows = []
-        for k in self._formulas:
-            solid = self.cell.objects[k]
-            assert isinstance(solid, Primitive)
-            off = np.where(self._apart[self.links + 1, k], _NOWHERE, 0.0)
-            rows.append(np.concatenate([solid.numbers(self.cell.margin_of(solid) if margins else 0.0), off]))
-        nothing = np.zeros(NUMBERS + len(self.links))
-        nothing[-len(self.links) :] = _NOWHERE
-        rows += [nothing] * (-len(rows) % BLOCK)
-        return np.array(rows).reshape(-1, BLOCK, len(nothing))
+    def added(self, links: Indices, objects: Indices) -> Array:
+        """(L, F) what is added to the distances of links from objects, m: what may touch is far away."""
+        return np.where(self.apart[np.ix_(links + 1, objects)], NOWHERE, 0.0)
 
     @cached_property
-    def _bare(self) -> Array:
-        return self._blocks(margins=False)
-
-    @cached_property
-    def _kept_from(self) -> Array:
-        return self._blocks(margins=True)
+    def _formulas(self) -> FormulaObjects:
+        objects = [x for x in self.cell if isinstance(x, Primitive)]
+        return FormulaObjects(
+            self.arm, self.balls, objects, self.added(self.links, self._plain), self._own_margins[self._plain]
+        )
 
     @cached_property
     def _gridded(self) -> GriddedObjects | None:
         objects = [x for x in self.cell if isinstance(x, Gridded)]
-        off = np.where(self._apart[np.ix_(self.links + 1, self._grids)], _NOWHERE, 0.0)
-        return GriddedObjects(self.arm, self.balls, objects, off) if objects and len(self.links) else None
-
-    @cached_property
-    def _distance_kernel(self) -> Kernel:
-        return distance_kernel(self.arm, self.balls)
-
-    @cached_property
-    def _nearest_kernel(self) -> Kernel:
-        return nearest_kernel(self.arm, self.balls)
+        return (
+            GriddedObjects(self.arm, self.balls, objects, self.added(self.links, self._grids))
+            if objects and len(self.links)
+            else None
+        )
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
@@ -172,15 +158,11 @@ class Obstacles:
         """
         count = len(self.cell)
         room, pair, slope = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
-        if len(self._formulas):
-            rows = np.stack(self._by_block(self._nearest_kernel, q, self._kept_from))
-            block = np.argmin(rows[:, :, 0], axis=0)  # NaN is in all of them or in none
-            best = rows[block, np.arange(len(q))]
-            seen = np.nan_to_num(block * BLOCK + best[:, 2]).astype(np.int64)
-            thing = self._formulas[np.minimum(seen, len(self._formulas) - 1)]  # where all may touch, one that is not there
-            room, pair, slope = best[:, 0], best[:, 1] * count + thing, best[:, 3:]
+        if len(self._plain) and len(self.links):
+            room, link, thing, slope = self._formulas.nearest(q)
+            pair = np.where(np.isnan(room), np.nan, link * count + self._plain[thing])
         if self._gridded is not None:
-            other, link, thing, theirs = self._gridded.nearest(q, self.margins[self._grids])
+            other, link, thing, theirs = self._gridded.nearest(q, self._own_margins[self._grids])
             closer = ~(room <= other)
             room, slope = np.where(closer, other, room), np.where(closer[:, None], theirs, slope)
             pair = np.where(closer, np.where(np.isnan(other), np.nan, link * count + self._grids[thing]), pair)
@@ -188,36 +170,24 @@ class Obstacles:
 
     def room(self, q: Array) -> Array:
         """(N,) the least distance beyond what each pair keeps, m."""
-        return self._least(q, self._kept_from, self.margins[self._grids])
+        room = self._formulas.room(q)
+        if self._gridded is not None:
+            room = np.minimum(room, (self._gridded.distances(q) - self._own_margins[self._grids]).min(axis=(1, 2)))
+        return room
 
     def least(self, q: Array) -> Array:
         """(N,) the least distance, m."""
-        return self._least(q, self._bare, np.zeros(len(self._grids)))
-
-    def _least(self, q: Array, blocks: Array, margins: Array) -> Array:
-        found = [np.full(len(q), np.inf), *(rows[:, 0] for rows in self._by_block(self._distance_kernel, q, blocks, first=1))]
-        if self._gridded is not None:
-            found.append((self._gridded.distances(q) - margins).min(axis=(1, 2)))
-        return reduce(np.minimum, found)
+        least = self._formulas.least(q)
+        return least if self._gridded is None else np.minimum(least, self._gridded.distances(q).min(axis=(1, 2)))
 
     def distances(self, q: Array) -> Array:
         """(N, L K) lower bound of the distance of every pair, m; about 1e9 m where a pair may touch."""
-        links, count = len(self.links), len(self.cell)
-        out = np.empty((len(q), links, count))
-        for number, rows in enumerate(self._by_block(self._distance_kernel, q, self._bare)):
-            some = self._formulas[number * BLOCK : (number + 1) * BLOCK]
-            out[:, :, some] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : len(some)]
+        out = np.empty((len(q), len(self.links), len(self.cell)))
+        if len(self._plain) and len(self.links):
+            out[:, :, self._plain] = self._formulas.distances(q)
         if self._gridded is not None:
             out[:, :, self._grids] = self._gridded.distances(q)
         return out.reshape(len(q), len(self.pairs))
-
-    def _by_block(self, kernel: Kernel, q: Array, blocks: Array, first: int | None = None) -> list[Array]:
-        """(N, outputs) of each block."""
-        if not len(blocks):
-            return []
-        if len(q) == 1:  # one call: the blocks are its rows
-            return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=first)[:, None])
-        return [kernel.rows(q, block, first=first) for block in blocks]
 
     def gap(self, q: Array) -> Gap:
         """What is nearest at one configuration (n,), once every pair has what it must keep."""
@@ -252,8 +222,8 @@ class Obstacles:
         return np.repeat(changes_from_outside(self.arm, self.links, far, low, high), len(self.cell), axis=0)
 
 
-def base_gaps(arm: Arm, balls: Balls, cell: Cell) -> list[float]:
+def base_gaps(arm: Arm, balls: Balls, objects: Iterable[Solid]) -> list[float]:
     """A lower bound of the distance of the base from each object, m; infinite if no sphere covers the base."""
     still = balls.link == BASE
     centre = balls.centre[still] @ arm.base[:3, :3].T + arm.base[:3, 3]
-    return [float((solid.signed_distance(centre) - balls.radius[still]).min(initial=np.inf)) for solid in cell]
+    return [float((solid.signed_distance(centre) - balls.radius[still]).min(initial=np.inf)) for solid in objects]
