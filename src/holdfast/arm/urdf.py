@@ -67,7 +67,7 @@ def load(
             ``<disable_collisions>`` are pairs of links that its shape leaves unchecked; if not given, the file of the same name
             that ends in ``.srdf``, where there is one.
         meshes: Folder in which the files of meshes are looked for before the usual places
-            (:func:`holdfast.shapes.meshes.find_mesh`), once the shape of the arm is asked for.
+            (``package://``, ``ROS_PACKAGE_PATH``), once the shape of the arm is asked for.
 
     Returns:
         What :meth:`holdfast.Arm.from_urdf` makes an arm of; its ``base`` is the identity, its ``source`` the name of the file.

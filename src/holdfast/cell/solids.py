@@ -107,7 +107,7 @@ class Box(Primitive):
         object.__setattr__(self, "size", size)
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """See :meth:`Primitive.formula`."""
+        """As every primitive has it."""
         x, y, z = (float(s) / 2 for s in self.size)
         return (x, y, z), 0.0, False, False
 
@@ -126,7 +126,7 @@ class Cylinder(Primitive):
         self._length(self.length, "length")
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """See :meth:`Primitive.formula`."""
+        """As every primitive has it."""
         return (self.radius, _UNBOUNDED, self.length / 2), 0.0, True, False
 
 
@@ -144,7 +144,7 @@ class Capsule(Primitive):
         self._length(self.length, "length")
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """See :meth:`Primitive.formula`."""
+        """As every primitive has it."""
         return (0.0, 0.0, self.length / 2), self.radius, False, False
 
 
@@ -160,7 +160,7 @@ class Sphere(Primitive):
         self._length(self.radius, "radius")
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """See :meth:`Primitive.formula`."""
+        """As every primitive has it."""
         return (0.0, 0.0, 0.0), self.radius, False, False
 
 
@@ -170,7 +170,7 @@ class HalfSpace(Primitive):
     """Everything below the plane through its own origin, as a floor: its own z points out of it."""
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """See :meth:`Primitive.formula`."""
+        """As every primitive has it."""
         return (_UNBOUNDED, _UNBOUNDED, 0.0), 0.0, False, True
 
 

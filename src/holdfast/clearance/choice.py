@@ -22,7 +22,7 @@ def chosen_clearance(
 
     Args:
         arm: The arm.
-        clearance: Its shape and what it keeps clear of, maybe with a cell of its own; None: :meth:`Clearance.by_default`;
+        clearance: Its shape and what it keeps clear of, maybe with a cell; None: :meth:`holdfast.Clearance.by_default`;
             True: the default shape, of an arm that moves in a plane too; False: the arm is not looked at beside itself.
         cell: Objects around it, or their file; they count whatever ``clearance`` says.
         looks: Without a clearance and a cell the default is looked at; else nothing is.

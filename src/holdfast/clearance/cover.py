@@ -254,7 +254,7 @@ def _spread(points: Array, faces: Triangles) -> Array:
 
 @checked
 def shape_of(arm: Arm, cell: Cell | None = None) -> Capsules:
-    """The shape of an arm where no other is given: the cover of its file's collision shapes, else :meth:`Capsules.along`.
+    """The shape of an arm where none is given: the cover of its file's collision shapes, else :meth:`holdfast.Capsules.along`.
 
     Args:
         arm: The arm.

@@ -71,7 +71,7 @@ class Shape:
 
         Args:
             arm: The arm.
-            meshes: Folder with the files of meshes; see :func:`holdfast.shapes.meshes.find_mesh`.
+            meshes: Folder with the files of meshes.
             hold: Where joints beside the chain are held, rad or m; as the arm was read if not given.
 
         Raises:
