@@ -70,6 +70,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"time_limit": 5.0, "confidence": 0.95},
         ),
         "best_law": (hf.best_law, {"laws": [law, hf.control.damped(arm, 0.1, "planar")], "targets": 2, "starts": 3}),
+        "check_cell": (hf.check_cell, {"cell": hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), "arm": arm}),
         "compare_assessments": (hf.compare_assessments, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
         "compare_laws": (
             hf.compare_laws,

@@ -301,6 +301,7 @@ QUICK = {
     "susceptibility": "is a module, and a function of one configuration",
     "self_motion": "is one of fibres, which says so",
     "point_to_point": "is a formula",
+    "check_cell": "looks at 512 configurations",
 }
 
 

@@ -65,6 +65,7 @@ MADE = {
     "Arm": arm,
     "Assessment": lambda: assessed(),
     "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
+    "CellCheck": found(lambda: hf.check_cell(hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), arm())),
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
     "ConvergenceMap": lambda: mapped(),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
@@ -92,7 +93,7 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"Optima", "StationaryPoints", "WaypointCheck"}
+WITHOUT_FIGURE = {"CellCheck", "Optima", "StationaryPoints", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

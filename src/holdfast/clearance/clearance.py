@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from copy import copy
 from itertools import combinations
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 import numpy as np
@@ -20,7 +20,6 @@ from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.clearance.capsules import Capsules, IgnoredPair
 from holdfast.clearance.changes import changes_between
-from holdfast.clearance.exact.exactness import Exactness
 from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
@@ -29,6 +28,9 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import Vector, dot, smallest
 from holdfast.probability.sobol_sequence import sobol
+
+if TYPE_CHECKING:
+    from holdfast.clearance.exact.exactness import Exactness
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -298,6 +300,8 @@ class Clearance:
     @cached_property
     def _exactness(self) -> Exactness:
         ignored, alone, held = [x.pair for x in self.ignored], self.alone, () if self.cell is None else self.cell.held
+        from holdfast.clearance.exact.exactness import Exactness  # takes long to import
+
         return Exactness(self.arm, self.capsules, (alone, alone.by_pair), self.pairs, ignored, self.obstacles, held)
 
     def sign(self, q: ArrayLike) -> NDArray[np.bool_]:

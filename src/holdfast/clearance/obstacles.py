@@ -21,7 +21,6 @@ from holdfast.cell.solids import Primitive, Solid
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.exact.bodies import box_about
 from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
@@ -115,6 +114,8 @@ class Obstacles:
         Raises:
             InputError: It touches an object that it may not touch.
         """
+        from holdfast.clearance.exact.bodies import box_about  # takes long to import
+
         for k, solid in enumerate(self.cell):
             margin = self.cell.margin_of(solid)
             # A box about it is asked first: for what is far away no grid need be made.

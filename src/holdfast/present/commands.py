@@ -14,7 +14,6 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arms.tool import attachment, attachment_text
 from holdfast.assessment.assessment import Assessment
-from holdfast.clearance.cover import shape_of
 from holdfast.failures import FailureSets, failure_sets
 from holdfast.grammar import ROWS, TASKS
 from holdfast.regions.region import Region
@@ -96,6 +95,8 @@ def _usual_shape(a: Assessment) -> bool:
     if clearance is None or clearance.capsules.covers:
         return True
     known = arms.load(a.arm.name) if a.arm.name in arms.names() else None
+    from holdfast.clearance.cover import shape_of  # takes long to import
+
     covered = known is not None and known.fingerprint == a.arm.fingerprint and shape_of(known).covers
     return clearance.capsules.assumed(a.arm) and not covered
 
