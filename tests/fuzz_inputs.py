@@ -609,7 +609,8 @@ class Watch:
         for path in paths:
             if isinstance(path, (str, bytes, os.PathLike)):
                 place = os.path.realpath(os.fsdecode(path))
-                if not place.startswith(self.root + os.sep):
+                own = f"{os.sep}__pycache__{os.sep}" in place  # a module that is imported for the first time
+                if not own and not place.startswith(self.root + os.sep):
                     self.found.append(f"{event} {place}")
 
 

@@ -275,11 +275,7 @@ class Clearance:
         Raises:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = as_configurations(self.arm, q)
-        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
-        if self.obstacles is not None:
-            values = np.minimum(values, self.obstacles.least(rows))
-        return values[0] if single else values
+        return self._of_rows(q, lambda rows: self._least(rows, None if self.obstacles is None else self.obstacles.least))
 
     def by_pair(self, q: ArrayLike) -> Array:
         """The distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
@@ -291,11 +287,11 @@ class Clearance:
 
     def room(self, q: ArrayLike) -> Array:
         """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
-        rows, single = as_configurations(self.arm, q)
-        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
-        if self.obstacles is not None:
-            values = np.minimum(values, self.obstacles.room(rows))
-        return values[0] if single else values
+        return self._of_rows(q, lambda rows: self._least(rows, None if self.obstacles is None else self.obstacles.room))
+
+    def _least(self, q: Array, beside: Callable[[Array], Array] | None) -> Array:
+        values = self.alone._value_kernel.rows(q)[:, 0] if self.pairs else _constant(q, np.inf)
+        return values if beside is None else np.minimum(values, beside(q))
 
     @cached_property
     def _exactness(self) -> Exactness:
