@@ -54,10 +54,13 @@ def story(check: CellCheck) -> Story:
     """What touches, and each object."""
     first, *others = map(capitalised, check.describe())
     about = f"Cell '{check.cell}'" + (f", arm '{check.arm}'" if check.arm else "")
-    touch = [(percent(check.colliding), "of the configurations touch an object")] if check.arm else []
+    touch = [(percent(check.colliding), "of the configurations touch an object")] if check.arm and check.colliding else []
+    answer = first if not others else others[-2] if check.ok and check.arm else others[0]
+    if check.ok and check.arm and not check.colliding:
+        answer = f"In none of {check.samples} configurations within the limits does the arm touch an object, by the bound"
     return Story(
         "Check of a cell",
-        first if not others else others[-2] if check.ok and check.arm else others[0],
+        answer.rstrip(".") + ".",
         about=about,
         facts=[*touch, (str(len(check.objects)), "objects")],
         lines=[first, *others],
