@@ -71,9 +71,9 @@ def test_optimise_keeps_the_arm_clear_of_itself(cli, ask):
     pose[:3, 3] = [0.3, 0.2, 0]
     index = hf.indices.relative_manipulability(arm, "planar")
     best = hf.optimise(arm, pose, index, clearance=thick, margin=0.02)
-    assert row["value"] == pytest.approx(best.value, rel=1e-12)  # levels of compilation may differ in the last bit
+    assert row["value"] == best.value
     assert row["blocked"] == best.blocked
-    assert row["clearance_m"] == pytest.approx(thick(best.q), rel=1e-9)
+    assert row["clearance_m"] == thick(best.q)
     assert row["clearance_m"] >= 0.02
     assert data["clearance"]["description"] == "given radius 0.13 m along each link"
     free = ask(*BEST, "--no-clearance")
