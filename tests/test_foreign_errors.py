@@ -47,6 +47,7 @@ def good() -> dict[str, Any]:
         "runs": hf.simulate(law, q, [1.5, 1.5]),
         "path": line,
         "timed": hf.paths.TimedPath(line, hf.paths.Constant(1.0)),
+        "still": hf.paths.TimedPath(hf.paths.line(*[arm.forward_kinematics(q)] * 2), hf.paths.Constant(1.0)),
         "capsules": hf.Capsules.along(arm),
     }
 
@@ -86,6 +87,16 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.design,
             {"arm": arm, "vary": {"a2": (0.5, 1.5)}, "region": region, "task": "planar", "objective": index.slug}
             | {"level": 0.9, "poses": 4, "designs": 4, "climbs": 0, "fresh": 4, "seed": 0, "failures": "single", "length": 1.0},
+        ),
+        "endurance_of": (
+            hf.endurance_of,
+            {"arm": arm, "motion": np.tile(q, (3, 1)), "path": g["still"], "rates": None, "mode": "on-path", "task": "planar"}
+            | {"per_second": False, "samples": 3, "spacing": 0.3, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
+        ),
+        "endure": (
+            hf.endure,
+            {"arm": arm, "path": g["timed"], "rates": [1.0, 2.0, 0.0], "mode": "on-path", "task": "planar", "samples": 3}
+            | {"per_second": False, "spacing": 0.3, "start": None, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
         "follow": (
             hf.follow,
