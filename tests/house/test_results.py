@@ -30,8 +30,8 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing LawChoice LawComparison "
-        "Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing LawChoice "
+        "LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
