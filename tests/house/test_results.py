@@ -70,7 +70,7 @@ THAWED = {"probability.Distribution"}  # values that are not frozen yet
 # Arms, tasks, settings: what an analysis is asked with.
 INPUTS = named(
     {
-        "": "Arm Capsules Cell DH DesignSpace Joint Link PointToPoint Region Servos Task",
+        "": "Arm Capsules Cell DH Degraded DesignSpace Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
