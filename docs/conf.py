@@ -1,5 +1,6 @@
 """Sphinx configuration: ``python -m sphinx -W -b html docs docs/_build/html`` from the root of the repository."""
 
+import gc
 import os
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ import holdfast
 HERE = Path(__file__).parent
 os.environ["HOLDFAST_NOTICES"] = "off"  # pages do not depend on how long something takes
 sys.path.insert(0, str(HERE / "_ext"))
+gc.set_threshold(100_000, 50, 100)  # of 700: in the trees of all pages there is little to find
 
 project = "holdfast"
 author = "The holdfast developers"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -16,7 +17,7 @@ from holdfast.cli.program import COMMANDS
 
 DOCS = Path(__file__).parents[1] / "docs"
 sys.path.insert(0, str(DOCS / "_ext"))
-commands, equations = pytest.importorskip("commands"), pytest.importorskip("equations")
+commands, equations, live = (pytest.importorskip(name) for name in ("commands", "equations", "live"))
 
 
 @pytest.fixture(scope="module")
@@ -96,3 +97,16 @@ def test_the_how_to_pages_name_the_page_that_a_command_writes():
             if "report" in text and not any("--out" in part and re.search(rf"holdfast {called}\b(?!-)", part) for part in said):
                 silent.append(called)
     assert not silent, f"say in docs/how-to what the page of --out shows: {', '.join(silent)}"
+
+
+def test_a_command_of_a_page_says_what_a_process_of_its_own_says(tmp_path):
+    for line, expected in (
+        ("holdfast index planar-3r --q '10 20' --degrees", 2),
+        ("holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=100 --degrees --out found", 0),
+        ("holdfast arms | head -2", 0),
+    ):
+        done = live.executed(line, tmp_path)
+        alone = subprocess.run(line, shell=True, cwd=tmp_path, env=live.environment(), capture_output=True, text=True)
+        assert (done.returncode, done.stdout, done.stderr) == (alone.returncode, alone.stdout, alone.stderr)
+        assert done.returncode == expected
+        assert done.stdout or done.stderr

@@ -24,16 +24,19 @@ import inspect
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
 import textwrap
 import traceback
+from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from forked import Program
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
@@ -67,6 +70,26 @@ def continued(command: str) -> list[str]:
 def wrapped(text: str, width: int) -> list[str]:
     """The lines of a text as a window of this width has them."""
     return [part for line in text.rstrip().splitlines() for part in textwrap.wrap(line, width, **TERMINAL) or [""]]
+
+
+def environment() -> dict[str, str]:
+    """Of every command line."""
+    path = str(Path(sys.executable).parent) + os.pathsep + os.environ.get("PATH", "")
+    return {**os.environ, "PATH": path, "COLUMNS": str(WIDTH), "NO_COLOR": "1", "TERM": "dumb"}
+
+
+@cache
+def program(process: int) -> Program:
+    """The program of a process: one that Sphinx forks to read pages has its own."""
+    return Program(environment())
+
+
+def executed(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """A command line, as a shell runs it."""
+    words = list(shlex.shlex(line, posix=True, punctuation_chars=True))
+    if words[0] == "holdfast" and not any(word[:1] in tuple("();<>|&") for word in words):
+        return program(os.getpid())(shlex.split(line)[1:], folder)
+    return subprocess.run(line, shell=True, cwd=folder, env=environment(), capture_output=True, text=True)
 
 
 class _Live(SphinxDirective):
@@ -137,13 +160,11 @@ class Shell(_Live):
         if not self.config.live_run:
             return [self.block("\n".join(self.content), "console", "live-shell")]
         expected, head = self.options.get("exit", 0), self.options.get("head")
-        environment = {**os.environ, "COLUMNS": str(WIDTH), "NO_COLOR": "1", "TERM": "dumb"}
-        environment["PATH"] = str(Path(sys.executable).parent) + os.pathsep + environment.get("PATH", "")
         shown = []
         for line in self.content:
             if not line.startswith("$ "):
                 raise self.error(f"every line of a shell block must begin with '$ ', got: {line}")
-            done = subprocess.run(line[2:], shell=True, cwd=self.folder, env=environment, capture_output=True, text=True)
+            done = executed(line[2:], self.folder)
             if done.returncode != expected:
                 raise self.error(f"'{line}' ended with {done.returncode} instead of {expected}:\n{done.stdout}{done.stderr}")
             lines = wrapped(done.stderr + done.stdout, WIDTH)

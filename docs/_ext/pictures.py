@@ -11,6 +11,7 @@ from typing import Any
 import matplotlib
 from cycler import cycler
 from matplotlib.figure import Figure
+from PIL import Image
 from sphinx_gallery.scrapers import figure_rst
 
 from holdfast.report import save_png
@@ -40,8 +41,9 @@ class LastFigure:
         figure.drawn = True  # type: ignore[attr-defined]
         file = PurePosixPath(next(block_vars["image_path_iterator"]))
         large = file.with_stem(f"{file.stem}_2_00x")
-        for name, dpi in ((file, 100), (large, 200)):
-            save_png(figure, str(name), dpi)
+        save_png(figure, str(large), 200)
+        with Image.open(large) as drawn:  # a fifth of the time of drawing it again
+            drawn.reduce(2).save(file)
         return figure_rst([str(file)], gallery_conf["src_dir"], srcsetpaths=[{0: file, 2.0: large}])
 
 

@@ -144,6 +144,19 @@ def test_a_figure_is_plotted_by_its_name():
         MADE["WaypointCheck"]().plot()
 
 
+@pytest.mark.parametrize("name", ["ConvergenceMap", "LawComparison"])
+def test_a_figure_that_nobody_asks_for_is_not_drawn(name, monkeypatch):
+    result, made = MADE[name](), []
+    make = Figure.__init__
+    monkeypatch.setattr(Figure, "__init__", lambda self, *args, **options: made.append(self) or make(self, *args, **options))
+    names = list(result._presented("drawings"))
+    assert len(names) > 1
+    assert made == []
+    assert result.plot(names[-1]) in made
+    assert len(made) == 1
+    assert list(result.figures()) == names
+
+
 def plt_knows_nothing():
     pyplot = sys.modules.get("matplotlib.pyplot")
     return pyplot is None or pyplot.get_fignums() == []

@@ -25,7 +25,7 @@ from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import recalled, recalled_data
 from holdfast.linalg import Vector, dot, smallest
 from holdfast.probability.sobol_sequence import sobol
 
@@ -141,23 +141,22 @@ class Clearance:
             elif (low, high) in self.capsules.ignore or (min(a, b), max(a, b)) in self.capsules.apart:
                 reasons[a, b] = "to be ignored"
         open_pairs = [pair for pair in different if pair not in reasons]
-        for pair, share in zip(open_pairs, self._overlaps(open_pairs), strict=True):
+        for pair, share in zip(open_pairs, self._overlaps(open_pairs) if open_pairs else [], strict=True):
             if share >= _ALWAYS:
                 reasons[pair] = f"overlap in {100 * share:.1f} % of {_SAMPLES} configurations within the limits"
             else:
                 self.pairs.append(pair)
         self.ignored = [IgnoredPair(pair, self._name(pair), reasons[pair]) for pair in different if pair in reasons]
 
-    def _overlaps(self, pairs: list[Pair]) -> Array:
+    @recalled_data
+    def _overlaps(self, pairs: list[Pair]) -> list[float]:
         """Share of configurations in which each pair overlaps."""
-        if not pairs:
-            return np.zeros(0)
         low, high = finite_limits(self.arm)
         q = low + (high - low) * sobol(_SAMPLES, self.arm.n)
         x = kinematics.joint_symbols(self.arm)
         # Used once: the virtual machine needs no compilation.
         values = Kernel("overlaps", [x], [ca.vertcat(*self._distances(self._segments(x), pairs))], backend="casadi").rows(q)
-        return np.asarray((values < 0).mean(axis=0))
+        return [float(share) for share in (values < 0).mean(axis=0)]
 
     def _name(self, pair: Pair) -> str:
         return " & ".join(self.capsules.label(self.arm, part) for part in pair)

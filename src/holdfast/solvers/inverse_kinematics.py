@@ -300,6 +300,7 @@ class InverseKinematics:
         prepare: Callable[[Array, NDArray[np.int64]], Array],
         first: Array | None = None,
         accept: Accept | None = None,
+        steps: int = STEPS,
     ) -> _Found:
         """Starts until each of the chosen rows is done; several starts of a row run side by side once few rows are left.
 
@@ -323,7 +324,7 @@ class InverseKinematics:
                 start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
                 if k == 0 and first is not None:
                     start = first[left]
-                run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
+                run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, steps)
                 ended, residuals = run.done, run.residual
                 if accept is not None:
                     at = np.flatnonzero(ended)
@@ -366,6 +367,7 @@ class InverseKinematics:
         tolerance: float,
         first: Array | None = None,
         accept: Accept | None = None,
+        steps: int = STEPS,
     ) -> Reach:
         """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses.
 
@@ -376,11 +378,14 @@ class InverseKinematics:
             tolerance: Largest pose error, rad, and lengths in units of the arm's own.
             first: (N, n) the first start of each, if it is not a random one.
             accept: Which configurations (K, n) that meet their poses count, (K,); all of them if not given.
+            steps: At most so many from each start.
         """
         parameters = _parameters(poses)
         finite = np.isfinite(parameters).all(axis=1)
         rows = np.flatnonzero(finite)
-        found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept)
+        found = self._search(
+            self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept, steps
+        )
         q, used = found.q, found.restarts
         q = joint_space.wrapped(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
