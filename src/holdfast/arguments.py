@@ -93,7 +93,7 @@ _ALIASES = {
     "CellLike": "Cell | str | Path",
     "Array": "ArrayLike",
     "Progress": "Callable",
-    **dict.fromkeys(("JointType", "Method", "MetricName", "Over", "RelativeTo", "Sampling"), "str"),
+    **dict.fromkeys(("JointType", "Method", "MetricName", "Mode", "Over", "RelativeTo", "Sampling"), "str"),
 }
 
 
@@ -185,8 +185,8 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
     "ndarray": ("an array", lambda x: isinstance(x, np.ndarray)),
 }
 _CLASSES = (
-    *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "Degraded", "DesignSpace", "Index", "Joint", "Law", "Link"),
-    *("Objective", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath"),
+    *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "Degraded", "DesignSpace", "FailureRates", "Index", "Joint"),
+    *("Law", "Link", "Objective", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath", "Trajectory"),
 )
 
 
