@@ -35,6 +35,7 @@ def good() -> dict[str, Any]:
     region = hf.Region.box([1.0, 1.0, 0], [0.5, 0.5, 0])
     index = hf.indices.relative_manipulability(arm, "planar")
     run = hf.assess(arm, region, index, poses=10, after_lock=True)
+    place = arm.forward_kinematics(q)[:3, 3]
     line = hf.paths.line([1.5, 1.5, 0], [1.6, 1.5, 0])
     return {
         "arm": arm,
@@ -47,6 +48,7 @@ def good() -> dict[str, Any]:
         "runs": hf.simulate(law, q, [1.5, 1.5]),
         "path": line,
         "timed": hf.paths.TimedPath(line, hf.paths.Constant(1.0)),
+        "tiny": hf.paths.TimedPath(hf.paths.line(place, place + np.full(3, 5e-5)), hf.paths.Constant(1.0)),
         "capsules": hf.Capsules.along(arm),
     }
 
@@ -86,6 +88,16 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.design,
             {"arm": arm, "vary": {"a2": (0.5, 1.5)}, "region": region, "task": "planar", "objective": index.slug}
             | {"level": 0.9, "poses": 4, "designs": 4, "climbs": 0, "fresh": 4, "seed": 0, "failures": "single", "length": 1.0},
+        ),
+        "endurance_of": (
+            hf.endurance_of,
+            {"arm": arm, "motion": np.tile(q, (3, 1)), "path": g["tiny"], "rates": None, "mode": "on-path", "task": "planar"}
+            | {"per_second": False, "samples": 3, "spacing": 0.3, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
+        ),
+        "endure": (
+            hf.endure,
+            {"arm": arm, "path": g["timed"], "rates": [1.0, 2.0, 0.0], "mode": "on-path", "task": "planar", "samples": 3}
+            | {"per_second": False, "spacing": 0.3, "start": None, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
         "follow": (
             hf.follow,

@@ -93,7 +93,7 @@ _ALIASES = {
     "CellLike": "Cell | str | Path",
     "Array": "ArrayLike",
     "Progress": "Callable",
-    **dict.fromkeys(("JointType", "Method", "MetricName", "Over", "RelativeTo", "Sampling"), "str"),
+    **dict.fromkeys(("JointType", "Method", "MetricName", "Mode", "Over", "RelativeTo", "Sampling"), "str"),
 }
 
 
@@ -186,7 +186,7 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
 }
 _CLASSES = (
     *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "DesignSpace", "Index", "Joint", "Law", "Link", "Objective"),
-    *("Parameter", "Places", "Region", "Servos", "Task", "TimedPath"),
+    *("FailureRates", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath", "Trajectory"),
 )
 
 

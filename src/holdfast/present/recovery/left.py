@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
@@ -10,8 +11,7 @@ from holdfast.present.story import Story
 from holdfast.words import percent
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from holdfast.present.results import Drawings
     from holdfast.recovery.remainder import WhatIsLeft
 FIGURES = {
     "left": (
@@ -82,12 +82,12 @@ def next_steps(left: WhatIsLeft, name: str) -> list[str]:
     return [f'{name}.report("left.html")']
 
 
-def figures(left: WhatIsLeft) -> dict[str, Figure]:
+def drawings(left: WhatIsLeft) -> Drawings:
     """Maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm reaches none."""
     from holdfast.present.assessment.sections.survival import before_and_after_figure
     from holdfast.report.views import SIDE, sides
 
     if not left.healthy.any():
         return {}
-    view = (sides(left.position) or [SIDE])[0]
-    return {"left": before_and_after_figure(left.position, left.healthy, left.locked, view, ", ".join(left.joints))}
+    view, joints = (sides(left.position) or [SIDE])[0], ", ".join(left.joints)
+    return {"left": partial(before_and_after_figure, left.position, left.healthy, left.locked, view, joints)}
