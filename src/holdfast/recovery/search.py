@@ -17,6 +17,7 @@ from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arm.tree import listed
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Degraded, Locked, degraded_at
 from holdfast.notice import says
@@ -27,6 +28,7 @@ from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route
 from holdfast.recovery.rows import RowSolver, row_solver
+from holdfast.recovery.second_try import bolder
 from holdfast.regions.region import Region
 from holdfast.solvers import joint_space
 
@@ -152,19 +154,23 @@ def recover(
         seed=seed,
     )
     standing = np.where(free, start, degraded.lo)
-    aim = _goal(degraded, goal, task is not None, standing, kept, margin, path)
+    aim = _goal(degraded, goal, task is not None, standing, sharpened(kept, margin) or kept, margin, path)
     made = replace(
         made, goal=aim.text if aim is not None else "the end of the tool path", goal_pose=None if aim is None else aim.pose
     )
     if samples:
         made = replace(made, left=what_is_left(solver, degraded, kept, margin, region, samples, seed))
-    trouble = _trouble(degraded, start, kept, margin)
-    if trouble is not None:
-        return replace(made, ending=trouble[0], reason=trouble[1])
-    space = Space(limited, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
-    return _Search(made, solver, space, length, tries, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))).run(
-        standing, aim, path
-    )
+
+    def attempt(kept: Clearance | None) -> Recovery:
+        asked = replace(made, clearance=kept)
+        trouble = _trouble(degraded, start, kept, margin)
+        if trouble is not None:
+            return replace(asked, ending=trouble[0], reason=trouble[1])
+        space = Space(limited, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
+        rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
+        return _Search(asked, solver, space, length, tries, rng).run(standing, aim, path)
+
+    return bolder(attempt(kept), attempt)
 
 
 def home_of(arm: Arm) -> tuple[Array, str]:
