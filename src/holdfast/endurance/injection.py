@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
-_STEP = 0.01  # rad, m and so many 5ths of the duration, along the branch
+_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
 _WHOLE = 5.0  # what the duration counts beside joints, rad
 _LONGEST = 60.0  # of a branch
 _OFF = 1e-3  # m and rad at the end: the integration went wrong
@@ -133,7 +133,7 @@ def _direction(problem: Problem, state: Array, lock: Index, before: Array, scale
         found = np.linalg.solve(system, wanted)[:, :, 0]
     except np.linalg.LinAlgError:
         found = (np.linalg.pinv(system) @ wanted)[:, :, 0]
-    return found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-300)
+    return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-300))
 
 
 def _with_detours(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:

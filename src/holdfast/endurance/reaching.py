@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.endurance.rates import FailureRates, RatesLike
@@ -110,11 +110,12 @@ def endure_to(
             f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows; one joint more than rows is needed"
         )
     failing = FailureRates.of(arm, rates, per_second=per_second)
-    speed = np.array([j.velocity for j in arm.joints]) if velocity is None else np.broadcast_to(velocity, arm.n).astype(float)
-    if not (np.isfinite(speed) & (speed > 0)).all():
+    speed = real_numbers([j.velocity for j in arm.joints] if velocity is None else velocity, "velocity")
+    if speed.shape not in ((), (arm.n,)) or not (np.isfinite(speed) & (speed > 0)).all():
         raise InputError(
-            f"velocity is {speed.tolist()}; it must be finite and above 0 for every joint of '{arm.name}': give it"
+            f"velocity is {speed.tolist()}; give one number or {arm.n}, finite and above 0, for the joints of '{arm.name}'"
         )
+    speed = np.broadcast_to(speed, arm.n)
     options = {"spacing": spacing, "seed": seed, "starts": starts}
     wanted = _of(fibres(arm, target_pose(rows, goal), rows, **options)[0], "goal")  # type: ignore[arg-type]
     if np.shape(start) == (4, 4):
