@@ -42,6 +42,7 @@ from holdfast.endurance import Endurance as Endurance
 from holdfast.endurance import FailureRates as FailureRates
 from holdfast.endurance import endurance_of as endurance_of
 from holdfast.endurance import endure as endure
+from holdfast.endurance import endure_to as endure_to
 from holdfast.equilibria import basins as basins
 from holdfast.equilibria import stationary_points as stationary_points
 from holdfast.errors import ArmError as ArmError
