@@ -90,4 +90,4 @@ def endurance_of(
         options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": True, "margin": margin}
         kept = None if problem.kept is None else problem.kept[0]
         found = fibres(arm, problem.lock.poses, problem.task, clearance=kept, **options)  # type: ignore[arg-type]
-    return Endurance.of(problem, q, problem.judge(found)(q))
+    return Endurance.of(problem, q, survives=problem.judge(found)(q))

@@ -136,8 +136,8 @@ def endure(
             continue
         q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
         smooth = smoothed(lock.tracer, nodes, table, gains, chosen, q, poses, held=start is not None)
-        made = Endurance.of(problem, smooth, survived(smooth), known)
-        results.append(made if made.survival >= most - _ALIKE else Endurance.of(problem, q, survived(q), known))
+        made = Endurance.of(problem, smooth, survives=survived(smooth), found=known)
+        results.append(made if made.survival >= most - _ALIKE else Endurance.of(problem, q, survives=survived(q), found=known))
     # What the joints can do comes first; of equals the first.
     return max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
 
