@@ -14,6 +14,7 @@ from holdfast.cli.clearance import (
     CellOption,
     ClearanceOption,
     MarginOption,
+    MeshesOption,
     RadiusOption,
     check_clearance,
     read_kept,
@@ -65,6 +66,7 @@ def command(
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     margin: MarginOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
@@ -93,7 +95,7 @@ def command(
         spacing=spacing,
         start=None if start is None else read_configuration(model, start, degrees),
         seed=seed,
-        clearance=read_kept(model, clearance, capsules, radius, margin, cell),
+        clearance=read_kept(model, clearance, capsules, radius, margin, cell, meshes),
         margin=margin or 0.0,
     )
     printed(result, json_, ([] if csv is None else [result.to_csv(csv)]) + drawn(result, plot, out))
