@@ -157,16 +157,24 @@ def test_detours_survive_what_the_ranges_of_the_joints_say(narrow):
 
 
 def test_other_motions_beside_it(narrow):
-    """As if each had been made and judged by hand."""
-    machine, path, best = narrow
+    """As if each had been made and judged by hand; where one is off the path it survives nothing."""
+    machine, path, _ = narrow
     index = hf.indices.relative_manipulability(machine, "planar")
     got = hf.endure(machine, path, samples=21, spacing=0.1, compare=["least-norm", index])
-    least, local, every = got.beside
     by_hand = hf.follow(machine, path, maximise=index, method="none", samples=21, task="planar")
-    assert least.survival == pytest.approx(hf.endurance_of(machine, by_hand, path, samples=21).survival)
-    assert got.survival == best.survival
-    assert all(0 < other.survival <= got.bound + 1e-9 for other in got.beside)
-    assert least.off == local.off == every.off == 0
+    least = got.beside[0]
+    off = by_hand.position_error > 1e-3
+    assert 0 < least.off == off.mean() < 1
+    assert not least.curve[off].any()
+    assert all(other.survival <= got.bound + 1e-9 for other in got.beside)
+    free = arm()
+    got = hf.endure(free, path, samples=21, spacing=0.1, compare=["least-norm"])
+    index = hf.indices.relative_manipulability(free, "planar")
+    by_hand = hf.follow(free, path, maximise=index, method="none", samples=21, task="planar")
+    (least,) = got.beside
+    assert least.off == 0
+    assert least.survival == pytest.approx(hf.endurance_of(free, by_hand, path, samples=21).survival)
+    assert least.survival <= got.survival
     with pytest.raises(InputError, match="least-norm"):
         hf.endure(machine, path, samples=21, compare=["fastest"])
 
