@@ -128,6 +128,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.reachable_when_locked,
             {**at_planar, "target": target, "locked": {1: 0.3}, "seed": 0} | {"restarts": 2, "tolerance": 1e-6},
         ),
+        "Degraded": (
+            hf.Degraded,
+            {"arm": arm, "locked": {"joint2": 0.6}, "ranges": {"joint1": (-1.0, 1.0)}, "speeds": {"joint3": 0.5}},
+        ),
+        "Degraded.at": (hf.Degraded(arm, locked=[1]).at, {"q": q}),
         "recover": (
             hf.recover,
             {**at_planar, "locked": {"joint2": 0.6}, "at": q, "goal": [0.4, 0.6, 0.8], "clearance": False, "margin": 0.0}
