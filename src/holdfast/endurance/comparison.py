@@ -63,5 +63,5 @@ def _judged(problem: Problem, name: str, q: Array) -> Compared:
     """What a motion survives; where it is off the path nothing is."""
     off = problem.off(q)
     survives = problem.judge(np.where(off[:, None], np.nan, q))
-    made = Endurance.of(problem, q, survives)
+    made = Endurance.of(problem, q, survives=survives)
     return Compared(name=name, survival=made.survival, curve=made.curve(), off=float(off.mean()))

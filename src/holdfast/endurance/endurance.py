@@ -144,7 +144,7 @@ class Endurance(Result):
     _problem: Problem = field(repr=False)
 
     @classmethod
-    def of(cls, problem: Problem, q: Array, survives: Flags, found: Found | None = None) -> Endurance:
+    def of(cls, problem: Problem, q: Array, *, survives: Flags, found: Found | None = None) -> Endurance:
         """Of a motion (T, n), with its verdicts (T, n)."""
         return cls(
             arm=problem.arm,

@@ -86,4 +86,4 @@ def endurance_of(
             f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off.argmax()]:.4g} s; give one "
             "along this path"
         )
-    return Endurance.of(problem, q, problem.judge(q))
+    return Endurance.of(problem, q, survives=problem.judge(q))
