@@ -30,8 +30,8 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing LawChoice LawComparison "
-        "Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing LawChoice "
+        "LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
@@ -51,7 +51,7 @@ VALUES = named(
         "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
-        "endurance": "Found VelocityJump",
+        "endurance": "Approach Found Injection VelocityJump",
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "indices": "Evaluation Part WorstCase",

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
+from holdfast.endurance.injection import Injection, drawn_locks, finished, healthy
+from holdfast.endurance.problem import Mode, Problem
 from holdfast.endurance.rates import FailureRates
+from holdfast.errors import InputError
 from holdfast.files.output import write_table
+from holdfast.notice import says
 from holdfast.paths.timed_path import TimedPath
+from holdfast.probability.intervals import Interval
 from holdfast.result import Result
 from holdfast.words import percent
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
-Mode = Literal["on-path", "detour"]
 
 _LITTLE, _STILL = 0.3, 1e-6  # rad and m along a whole curve
 _WHOLE = 1e-9  # of a probability: less is rounding
@@ -114,6 +118,26 @@ class Endurance(Result):
     kept: tuple[Clearance, float] | None = None
     found: Found | None = None
     exact: bool = True
+    _problem: Problem = field(repr=False)
+
+    @classmethod
+    def of(cls, problem: Problem, q: Array, *, survives: Flags, found: Found | None = None) -> Endurance:
+        """Of a motion (T, n), with its verdicts (T, n)."""
+        return cls(
+            arm=problem.arm,
+            task=problem.task,
+            path=problem.path,
+            mode=problem.mode,
+            rates=problem.rates,
+            time=problem.time,
+            poses=problem.lock.poses,
+            q=q,
+            survives=survives,
+            kept=problem.kept,
+            found=found,
+            exact=problem.mode == "on-path" or problem.kept is None,
+            _problem=problem,
+        )
 
     @property
     def survival(self) -> float:
@@ -213,6 +237,36 @@ class Endurance(Result):
             angular=angular,
             mean_linear=self._mean(linear @ share),
             mean_angular=self._mean(angular @ share),
+        )
+
+    @checked
+    @says("injecting locks")
+    def inject(self, locks: int = 1000, *, seed: int = 1) -> Injection:
+        """Try the motion: joints that lock at random times, and whether the failed arm gets to the end.
+
+        On the path the failed arm is followed by another integrator than the table's, along the arc of its branch with steps of
+        Runge and Kutta; with detours, inverse kinematics must find a configuration of every sample still to come. Joints are
+        drawn by their rates, and times evenly; with rates per second, as failures come that come before the end.
+
+        Args:
+            locks: How many.
+            seed: Of the draws.
+
+        Raises:
+            InputError: Fewer than one lock.
+        """
+        if locks < 1:
+            raise InputError(f"locks is {locks}; it must be 1 or more")
+        generator = np.random.default_rng(np.random.SeedSequence(seed))
+        time, joint = drawn_locks(self._problem, locks, generator)
+        survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint)
+        nearest = np.rint(np.interp(time, self.time, np.arange(len(self.time)))).astype(np.int64)
+        return Injection(
+            time=time,
+            joint=joint,
+            survived=survived,
+            expected=self.survives[nearest, joint],
+            interval=Interval.of(float(survived.sum()), locks),
         )
 
     def to_csv(self, file: str | Path) -> Path:

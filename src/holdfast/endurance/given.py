@@ -12,8 +12,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
-from holdfast.endurance.endurance import Endurance, Mode
-from holdfast.endurance.problem import ON, posed
+from holdfast.endurance.endurance import Endurance
+from holdfast.endurance.problem import ON, Mode, posed
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError
 from holdfast.motion.trajectory import Trajectory
@@ -90,4 +90,4 @@ def endurance_of(
         options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": True, "margin": margin}
         kept = None if problem.kept is None else problem.kept[0]
         found = fibres(arm, problem.lock.poses, problem.task, clearance=kept, **options)  # type: ignore[arg-type]
-    return problem.result(q, problem.judge(found)(q), None)
+    return Endurance.of(problem, q, survives=problem.judge(found)(q))

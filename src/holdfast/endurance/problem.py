@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,6 @@ from holdfast.arm.task import Task, as_task, task_of_path
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.endurance import Endurance, Found, Mode
 from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
@@ -23,10 +23,12 @@ from holdfast.solvers.self_motions import SelfMotion, tracer
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+Mode = Literal["on-path", "detour"]
+
 ON = 1e-3  # m and rad that a configuration given may be off the path
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Problem:
     """What is asked."""
 
@@ -46,23 +48,6 @@ class Problem:
         assert found is not None
         ranges = tables.common_ranges(found)
         return lambda q: np.array([tables.within(self.arm, x[None], at)[0] for x, at in zip(q, ranges, strict=True)])
-
-    def result(self, q: Array, survives: Flags, found: Found | None) -> Endurance:
-        """Of a motion (T, n)."""
-        return Endurance(
-            arm=self.arm,
-            task=self.task,
-            path=self.path,
-            mode=self.mode,
-            rates=self.rates,
-            time=self.time,
-            poses=self.lock.poses,
-            q=q,
-            survives=survives,
-            kept=self.kept,
-            found=found,
-            exact=self.mode == "on-path" or self.kept is None,
-        )
 
 
 def posed(

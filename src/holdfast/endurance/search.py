@@ -14,9 +14,9 @@ from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
 from holdfast.endurance.choice import best_motions
-from holdfast.endurance.endurance import Endurance, Found, Mode
+from holdfast.endurance.endurance import Endurance, Found
 from holdfast.endurance.grid import Nodes, nodes_of
-from holdfast.endurance.problem import ON, Problem, posed
+from holdfast.endurance.problem import ON, Mode, Problem, posed
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.endurance.smoothing import smoothed
 from holdfast.errors import HoldfastError, InputError
@@ -136,8 +136,8 @@ def endure(
             continue
         q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
         smooth = smoothed(lock.tracer, nodes, table, gains, chosen, q, poses, held=start is not None)
-        made = problem.result(smooth, survived(smooth), known)
-        results.append(made if made.survival >= most - _ALIKE else problem.result(q, survived(q), known))
+        made = Endurance.of(problem, smooth, survives=survived(smooth), found=known)
+        results.append(made if made.survival >= most - _ALIKE else Endurance.of(problem, q, survives=survived(q), found=known))
     # What the joints can do comes first; of equals the first.
     return max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
 

@@ -14,6 +14,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import Sharper
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.failures import Degraded
 from holdfast.recovery.continuation import RestOfPath
@@ -118,7 +119,8 @@ class Recovery(Result):
         found: Configurations of the goal that were found and are clear.
         metric: ``travel`` or ``time``.
         unit: Of lengths: ``rad`` (1 m of a slide counts as 1 rad) or ``s``.
-        clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None.
+        clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None. With a cell it is
+            the bound, or where that leaves less the exact distances of :class:`holdfast.clearance.exact.sharper.Sharper`.
         margin: m.
         seed: The same seed gives the same result.
     """
@@ -230,6 +232,8 @@ class Recovery(Result):
         ]
         if self.reason:
             lines.append(self.reason)
+        if len(self.q) and isinstance(self.clearance, Sharper):
+            lines.append(f"by the bound this is not clear; it is by exact distances ({self.clearance.exact_by}), all the way")
         if self.given_up is not None:
             lines.append(f"given up: {self.given_up}")
         others = [str(c) for c in self.choices if self.given_up is None or not set(c.names) <= set(self.given_up.names)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from time import monotonic
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
 from holdfast.notice import says
@@ -26,6 +28,7 @@ from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route
 from holdfast.recovery.rows import RowSolver, row_solver
+from holdfast.recovery.second_try import bolder
 from holdfast.recovery.verification import Verification, verify
 from holdfast.regions.region import Region
 
@@ -139,21 +142,26 @@ def recover(
         seed=seed,
     )
     standing = np.where(free, start, degraded.lo)
-    aim = goal_of(degraded, goal, task is not None, standing, kept, margin, path)
+    aim = goal_of(degraded, goal, task is not None, standing, sharpened(kept, margin) or kept, margin, path)
     made = replace(
         made, goal=aim.text if aim is not None else "the end of the tool path", goal_pose=None if aim is None else aim.poses[0]
     )
     if samples:
         made = replace(made, left=what_is_left(solver, degraded, kept, margin, region, samples, seed))
-    trouble = trouble_of(degraded, start, kept, margin)
-    if trouble is not None:
-        return replace(made, ending=trouble[0], reason=trouble[1])
-    space = Space(limited, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
-    if time_limit is not None:
-        space.stop_after(time_limit)
-    return _Search(made, solver, space, length, tries, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))).run(
-        standing, aim, path
-    )
+
+    def attempt(kept: Clearance | None) -> Recovery:
+        asked = replace(made, clearance=kept)
+        trouble = trouble_of(degraded, start, kept, margin)
+        if trouble is not None:
+            return replace(asked, ending=trouble[0], reason=trouble[1])
+        space = Space(limited, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
+        if time_limit is not None:
+            space.stop_after(time_limit - (monotonic() - began))
+        rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
+        return _Search(asked, solver, space, length, tries, rng).run(standing, aim, path)
+
+    began = monotonic()
+    return bolder(attempt(kept), attempt)
 
 
 # ---- the search ----------------------------------------------------------------------------------------------------------

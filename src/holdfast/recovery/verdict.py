@@ -14,7 +14,7 @@ class Verdict:
     """Whether everything that was asked for can be done.
 
     Attributes:
-        answer: ``solved``: a motion was found and verified by other code. ``proved infeasible``: no motion does it, up to floating
+        answer: ``solved``: a motion was found and verified by other code. ``proved infeasible``: none does it, up to floating
             point. ``argued infeasible``: every configuration that the search found is blocked, or none was found, which
             proves nothing. ``undecided``: the search was spent, or what it found was not verified.
         why: The proof, what was searched, or at which level the search was spent; empty if solved.

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
 from holdfast.files.output import writing
@@ -138,7 +139,8 @@ def check_waypoints(
         locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it. Or a
             :class:`holdfast.Degraded`, whose reduced ranges must be kept too.
         clearance: Looked at if given.
-        cell: Objects around the arm, or their file; looked at if given.
+        cell: Objects around the arm, or their file; looked at if given. What the bound calls too close is asked exactly where a
+            library for that is installed.
         margin: m that should be kept; from an object beyond what the cell keeps from it.
 
     Raises:
@@ -159,11 +161,10 @@ def check_waypoints(
     least = room = None
     closest = ""
     if seen is not None:
-        parts = [fine[i : i + _CHUNK] for i in range(0, len(fine), _CHUNK)]
-        least = min(float(seen(part).min()) for part in parts)
-        rooms = np.concatenate([seen.room(part) for part in parts])
-        k = int(seen.closest_pair(fine[rooms.argmin()]))
-        room, closest = float(rooms.min()), seen.pair_names[k] if k >= 0 else ""
+        least, room, closest = _nearest(seen, fine)
+        sharp = sharpened(seen, margin) if room < margin else None
+        if sharp is not None:
+            least, room, closest = _nearest(sharp, fine)
     return WaypointCheck(
         q=a,
         poses=arm.forward_kinematics(a),
@@ -175,6 +176,15 @@ def check_waypoints(
         closest=closest,
         margin=margin,
     )
+
+
+def _nearest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
+    """The least clearance and room of configurations (N, n), m, and the pair with the least room."""
+    parts = [q[i : i + _CHUNK] for i in range(0, len(q), _CHUNK)]
+    rooms = np.concatenate([clearance.room(part) for part in parts])
+    k = int(clearance.closest_pair(q[rooms.argmin()]))
+    least = min(float(clearance(part).min()) for part in parts)
+    return least, float(rooms.min()), clearance.pair_names[k] if k >= 0 else ""
 
 
 def finely(q: Array) -> Array:

@@ -54,7 +54,7 @@ def command(
         str | None,
         typer.Option(
             "--goal",
-            help="home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; any of several, by "
+            help="home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
             "';'. Default: home; with --path none.",
             show_default=False,
         ),
