@@ -8,7 +8,7 @@ from scipy.spatial import ConvexHull, cKDTree
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
-from holdfast.cell import Box, HalfSpace, Mesh, Points, Sphere, field
+from holdfast.cell import Box, HalfSpace, Mesh, Points, Sphere, field, outside
 
 POSE = np.eye(4)
 POSE[:3, :3], POSE[:3, 3] = Rotation.from_rotvec([0.3, -0.8, 0.5]).as_matrix(), (0.1, 0.4, 0.5)
@@ -263,3 +263,45 @@ def test_the_hull_is_that_of_scipy(rng):
     made = Mesh("stone", (points, hull.simplices), solid="hull")
     np.testing.assert_allclose(made.surface.volume, hull.volume, rtol=1e-12)
     assert made.surface.closed
+
+
+# ---- from outside ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["convex", "not convex", "points", "flat"])
+def test_from_afar_little_is_lost(rng, kind):
+    shape = bracket()
+    made = {
+        "convex": lambda: Mesh("hull", (shape.vertices, shape.faces), solid="hull"),
+        "not convex": lambda: Mesh("bracket", (shape.vertices, shape.faces)),
+        "points": lambda: Points("scan", shape.vertices, radius=0.02),
+        "flat": lambda: Points("plate", rng.uniform(-0.4, 0.4, (500, 3)) * [1, 1, 0], radius=0.02),
+    }[kind]()
+    middle, half = made.field.middle, outside.half(made.field.grid)
+    points = middle + (half + [0.05]) * 2 ** rng.uniform(0, 3, (500, 1)) * on_cube(rng, 500)
+    if isinstance(made, Points):
+        exact = cKDTree(made.centres).query(points)[0] - made.radius
+    else:
+        exact = signed(trimesh.Trimesh(made.surface.vertices, made.surface.faces), points)
+    bound = made.signed_distance(points)
+    assert (bound <= exact + 1e-9).all()
+    size = np.ptp(made.surface.vertices if isinstance(made, Mesh) else made.centres, axis=0).max()
+    assert (exact - bound).mean() < 0.002 * size
+    assert (exact - bound).max() < 0.01 * size
+
+
+def on_cube(rng, count: int) -> np.ndarray:
+    points = rng.uniform(-1, 1, (count, 3))
+    return points / np.abs(points).max(axis=1, keepdims=True)
+
+
+def test_the_bound_has_no_step(rng):
+    shape = bracket()
+    made = Mesh("bracket", (shape.vertices, shape.faces))
+    through = trimesh.sample.sample_surface(shape, 40, seed=2)[0]
+    along = rng.normal(size=(40, 1, 3))
+    along /= np.linalg.norm(along, axis=2, keepdims=True)
+    step = 2e-5
+    points = through[:, None] + along * step * np.arange(-20_000, 20_000)[:, None]  # from within to beyond the grid
+    rise = np.abs(np.diff(made.signed_distance(points), axis=1)) / step
+    assert rise.max() < 10  # a step of 1 mm would be 50
