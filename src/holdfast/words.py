@@ -11,6 +11,7 @@ import numpy as np
 _ZERO = 1e-9
 _UNIT = re.compile(r" (?=(?:%|°|(?:N m|[kcmµ]?m|m?s|min|h|rad|deg|k?N|k?g|k?Hz|W|J|[kMG]?B|px)(?![\w-])))")
 _ENDS = frozenset("0123456789∞–")  # what a number ends with
+_SMALL = re.compile(r"(?<![\w.])(\d[\d.]*e)-(?=\d)")  # a browser breaks lines behind a hyphen
 _PIECE = re.compile(r"(<code\b.*?</code>|<pre\b.*?</pre>|<[^>]*>)", re.DOTALL)
 
 
@@ -106,7 +107,7 @@ def counted(count: int, noun: str) -> str:
 
 
 def together(text: str, html: bool = False) -> str:
-    """The text with no-break spaces between numbers and their units, so that no line ends between them: for pages.
+    """The text with no-break spaces between numbers and their units, so that no line ends there or within a number: for pages.
 
     Args:
         text: For people.
@@ -116,7 +117,7 @@ def together(text: str, html: bool = False) -> str:
         parts = _PIECE.split(text)  # each second one is to stay
         return "".join(part if k % 2 else together(part) for k, part in enumerate(parts))
     found = _UNIT.sub(lambda space: "\u00a0" if text[max(space.start() - 1, 0)] in _ENDS else " ", text)
-    return found.replace("\u00a0N m", "\u00a0N\u00a0m")
+    return _SMALL.sub(r"\1−", found.replace("\u00a0N m", "\u00a0N\u00a0m"))
 
 
 def duration(seconds: float) -> str:

@@ -82,6 +82,7 @@ APART = re.compile(r"\d (%|°|m|mm|s|ms|min|h|rad|deg|N|kg|Hz)(?![\w-])")
 
 
 def test_no_number_is_on_another_line_than_its_unit():
+    assert together("1.5e-06 of tool1e-2") == "1.5e−06 of tool1e-2"
     held = "at 7~% of 1.2~m, 3~N~m and 2~rad/s in 10~s; 2 hours, 5 m-long, joint 4 may lock"
     assert together(held.replace("~", " ")).replace("\u00a0", "~") == held
     page = '<p title="7 %">7 %</p> <code>--x 1 m</code><pre>2 m\n3 s</pre>'
