@@ -69,6 +69,7 @@ MADE = {
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
     "ConvergenceMap": lambda: mapped(),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
+    "Endurance": found(lambda: hf.endure(arm(), timed(), task="planar", samples=5, spacing=0.3)),
     "Law": law,
     "LawChoice": found(lambda: hf.best_law([law(), hf.control.damped(arm(), 0.3, "planar")], 1, 2, configurations=1)),
     "LawComparison": found(

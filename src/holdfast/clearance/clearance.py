@@ -106,7 +106,7 @@ class Clearance:
 
     def _in(self, cell: Cell | None) -> Clearance:
         other = copy(self)
-        vars(other).pop("_exactness", None)
+        vars(other).pop("exactness", None)
         other._meet(cell)
         return other
 
@@ -293,7 +293,8 @@ class Clearance:
         return values if beside is None else np.minimum(values, beside(q))
 
     @cached_property
-    def _exactness(self) -> Exactness:
+    def exactness(self) -> Exactness:
+        """What is asked exactly, by a library."""
         ignored, alone, held = [x.pair for x in self.ignored], self.alone, () if self.cell is None else self.cell.held
         from holdfast.clearance.exact.exactness import Exactness  # takes long to import
 
@@ -304,11 +305,11 @@ class Clearance:
 
         Margins do not count, less than 1e-6 m may, and a row that is not finite is not clear. Needs python-fcl or coal.
         """
-        return self._of_rows(q, self._exactness.clear)
+        return self._of_rows(q, self.exactness.clear)
 
     def exact(self, q: ArrayLike) -> Array:
         """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is."""
-        return self._of_rows(q, self._exactness.distances)
+        return self._of_rows(q, self.exactness.distances)
 
     def _of_rows(self, q: ArrayLike, ask: Callable[[Array], NDArray[Any]]) -> NDArray[Any]:
         rows, single = as_configurations(self.arm, q)
@@ -318,7 +319,7 @@ class Clearance:
     @property
     def exact_by(self) -> str:
         """The library that :meth:`exact` asks, and how right it is: ``coal 3.0.3, to 0.001 mm``."""
-        return self._exactness.library
+        return self.exactness.library
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
         """Position in ``pair_names`` of the pair with the least room, the first of several, (N,) or a scalar.
