@@ -30,6 +30,7 @@ extensions = [
     "equations",
     "moved",
     "sidebar",
+    "wholes",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
