@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.objects.one_row import OneRow
 
 Array = NDArray[np.float64]
 
@@ -52,6 +53,7 @@ class Room:
 
     def __init__(self, clearance: Clearance, margin: float, rate: float) -> None:
         self.clearance, self.margin, self.rate = clearance, margin, rate
+        self._nearest = OneRow(clearance)
         self._steepest = clearance.changes(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
         self._seen: list[tuple[Array, float, Array]] = []
 
@@ -59,8 +61,8 @@ class Room:
         """The configuration (n,), its room and the slope of that (n,); remembered, the latest first."""
         if self._seen and np.array_equal(self._seen[0][0], q):
             return self._seen[0]
-        rooms, slopes = self.clearance.nearest(q[None])
-        found = (q.copy(), float(rooms[0]) - self.margin, slopes[0])
+        room, slope = self._nearest(q)
+        found = (q.copy(), room - self.margin, slope)
         others = [x for x in self._seen if np.abs(x[0] - q).max() < _FAR and not _alike(x[2], found[2])]
         self._seen = [found, *others[: _KEPT - 1]]
         return found
