@@ -12,6 +12,7 @@ import holdfast as hf
 from holdfast.cell import Box, Cell, Sphere
 from holdfast.clearance import Capsule, Capsules, Clearance
 from holdfast.motion import tracking
+from holdfast.motion.integration import _step_kernel, keep_limits
 
 MARGIN = 0.01  # m
 # Few capsules, and the same for every test of an arm: what they compile takes the time here.
@@ -158,3 +159,33 @@ def test_starts_and_margins_that_keep_nothing_are_refused(panda, path, wish, pla
         hf.follow(panda, path, clearance=forearm, cell=inside, **wish)
     with pytest.raises(hf.errors.InputError, match="margin has nothing to keep"):
         hf.follow(panda, path, margin=0.1, **wish)
+
+
+def test_two_rows_are_enough_where_a_third_thing_is_in_the_way(rng):
+    """Self-motion of one dimension between random limits: that of a search over all of them, if any keeps them all."""
+    arm, step = hf.arms.load("planar-3r"), 1e-3
+    objective = hf.susceptibility.torque(arm, "worst-case")
+    law = hf.motion.GradientProjection(arm, objective, 3.0, task="planar", period=None)
+    kernel = _step_kernel(law, step, False, 1.0, True)
+    columns, out = np.zeros((3 + 19 + 8, kernel.lanes)), np.zeros((9, kernel.lanes))
+    once, third = kernel.bound(columns, out), 0
+    for _ in range(300):
+        q = rng.uniform(-2, 2, 3)
+        columns[:3] = q[:, None]
+        pose = arm.forward_kinematics(q)
+        columns[3:15] = np.concatenate([pose[:3, 3] + [1e-3, 0, 0], pose[:3, :3].ravel()])[:, None]
+        columns[22:] = 0
+        once()
+        free = out[3:6, 0].copy()  # rates of the task and the self-motion wanted
+        null = np.linalg.svd(arm.jacobian(q)[:2])[2][2]
+        slopes = rng.normal(size=(5, 3))
+        limits = np.column_stack([slopes, slopes @ (free + rng.normal() * null) - rng.exponential(0.3, 5)])
+        a, b = slopes @ null, limits[:, 3] - slopes @ free
+        low, high = (b / a)[a > 0].max(initial=-np.inf), (b / a)[a < 0].min(initial=np.inf)
+        keep_limits(once, columns, out, limits)
+        two = np.array([(b / a)[:2][a[:2] > 0].max(initial=-np.inf), (b / a)[:2][a[:2] < 0].min(initial=np.inf)])
+        if low > high or two[0] > two[1] or np.abs(a).min() < 0.1:
+            continue
+        third += not low <= np.clip(0, *two) <= high
+        np.testing.assert_allclose(out[3:6, 0], free + np.clip(0, low, high) * null, atol=1e-6)
+    assert third > 20

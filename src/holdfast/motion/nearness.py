@@ -75,13 +75,16 @@ class Room:
         least = room - float(self._steepest @ np.abs(q - where))
         return float(self._steepest @ np.abs(rates)) < self.rate * least
 
-    def rows(self, q: Array) -> Array:
-        """The limits at a configuration (n,): two slopes (n,), and after each the least that the rates may make of it, m/s."""
+    def limits(self, q: Array) -> Array:
+        """(K, n + 1) the limits at a configuration (n,): slopes, and after each the least that the rates may make of it, m/s.
+
+        The first is what is nearest, the second what is nearest of the things that were seen a moment ago; one at least is
+        of something, and slopes of 0 limit nothing.
+        """
         first = self._look(q)
-        around = [(room + float(slope @ (q - where)), slope) for where, room, slope in self._seen[1:]]
-        nearest = min(around, key=lambda x: x[0], default=(np.inf, np.zeros(len(q))))
-        limits = [(first[1], first[2]), nearest]
-        return np.concatenate([np.append(slope, max(-self.rate * room, _NEVER)) for room, slope in limits])
+        around = sorted(((room + float(slope @ (q - where)), slope) for where, room, slope in self._seen[1:]), key=_room)
+        seen = [(first[1], first[2]), *around, (np.inf, np.zeros(len(q)))]
+        return np.array([np.append(slope, max(-self.rate * room, _NEVER)) for room, slope in seen])
 
     def part(self, q: Array, moved: Array) -> float:
         """How much of a step from one configuration (n,) to another the room allows: all, unless it is used up on the way."""
@@ -98,6 +101,10 @@ class Room:
         return Near(
             clearance.room(q) - self.margin, clearance.closest_pair(q), clearance.pair_names, clearance.margins + self.margin
         )
+
+
+def _room(seen: tuple[float, Array]) -> float:
+    return seen[0]
 
 
 def _alike(one: Array, other: Array) -> bool:

@@ -230,7 +230,7 @@ class Ascent:
         there = np.isin(owner, poses)
         votes = np.zeros((len(poses), len(self.clearance.pair_names)), dtype=np.int64)
         np.add.at(votes, (np.searchsorted(poses, owner[there]), self.clearance.closest_pair(q[there])), 1)
-        return votes.argmax(axis=1)
+        return np.asarray(votes.argmax(axis=1), dtype=np.int64)
 
     def _started(
         self, poses: Array, first: Reach, seed: np.random.SeedSequence, starts: int, tolerance: float
