@@ -99,6 +99,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"arm": arm, "path": g["timed"], "rates": [1.0, 2.0, 0.0], "mode": "on-path", "task": "planar", "samples": 3}
             | {"per_second": False, "spacing": 0.3, "start": None, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
+        "endure_to": (
+            hf.endure_to,
+            {**at_planar, "start": q, "goal": target, "rates": None, "velocity": 1.0, "spacing": 0.3, "seed": 0, "starts": 4}
+            | {"per_second": False},
+        ),
         "follow": (
             hf.follow,
             {"arm": arm, "path": g["timed"], "maximise": index, "method": "gradient-projection", "q": q, "gain": 0.1}
@@ -123,6 +128,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.reachable_when_locked,
             {**at_planar, "target": target, "locked": {1: 0.3}, "seed": 0} | {"restarts": 2, "tolerance": 1e-6},
         ),
+        "Degraded": (
+            hf.Degraded,
+            {"arm": arm, "locked": {"joint2": 0.6}, "ranges": {"joint1": (-1.0, 1.0)}, "speeds": {"joint3": 0.5}},
+        ),
+        "Degraded.at": (hf.Degraded(arm, locked=[1]).at, {"q": q}),
         "recover": (
             hf.recover,
             {**at_planar, "locked": {"joint2": 0.6}, "at": q, "goal": [0.4, 0.6, 0.8], "clearance": False, "margin": 0.0}

@@ -86,6 +86,7 @@ def test_the_names_a_user_needs():
         "follow",
         "endure",
         "endurance_of",
+        "endure_to",
     }
     assert needed <= set(hf.__all__)
 

@@ -10,70 +10,7 @@ from holdfast.endurance import tables
 from holdfast.endurance.problem import posed
 from holdfast.errors import HoldfastError, InputError, TaskError
 from holdfast.paths import Constant, TimedPath, line
-
-
-def arm(limits=None):
-    """Three unit links in the plane."""
-    low, high = limits or (None, None)
-    joints = [hf.DH(a=1.0, alpha=0.0, **({} if limits is None else {"lower": low[k], "upper": high[k]})) for k in range(3)]
-    return hf.Arm.from_dh(joints, name="three")
-
-
-def timed(begin, end, duration=2.0):
-    return TimedPath(line([*begin, 0.0], [*end, 0.0]), Constant(duration))
-
-
-def places(path, samples):
-    return path.pose(np.linspace(0, path.duration, samples))[:, :2, 3]
-
-
-def two_links(base, a, b, point, sign):
-    """Absolute angles of two links of lengths a and b from base to a point, with the second to one side; None out of reach."""
-    x, y = point - base
-    cosine = (x * x + y * y - a * a - b * b) / (2 * a * b)
-    if abs(cosine) > 1:
-        return None
-    bend = sign * np.arccos(cosine)
-    return np.arctan2(y, x) - np.arctan2(b * np.sin(bend), a + b * np.cos(bend)), bend
-
-
-def configuration(joint, value, point, sign):
-    """The configuration (3,) of unit links with one joint at a value and the tool at a point, by the law of cosines."""
-    if joint == 0:
-        found = two_links(np.array([np.cos(value), np.sin(value)]), 1.0, 1.0, point, sign)
-        return None if found is None else np.array([value, found[0] - value, found[1]])
-    # Two links that do not move against each other are one, turned against its first.
-    whole = 1 + np.exp(1j * value)
-    length, turn = abs(whole), np.angle(whole)
-    if joint == 2:
-        found = two_links(np.zeros(2), 1.0, length, point, sign)
-        return None if found is None else np.array([found[0], found[1] - turn, value])
-    found = two_links(np.zeros(2), length, 1.0, point, sign)
-    return None if found is None else np.array([found[0] - turn, value, found[1] - value + turn])
-
-
-def around(x):
-    return np.arctan2(np.sin(x), np.cos(x))
-
-
-def survives(machine, q, joint, points):
-    """Closed form: the tool passes through all points (S, 2), the first is that of q, on the branch that q is on."""
-    branches = [s for s in (-1, 1) if configuration(joint, q[joint], points[0], s) is not None]
-    if not branches:  # at the edge of what is within reach
-        return False
-    sign = min(branches, key=lambda s: np.abs(around(configuration(joint, q[joint], points[0], s) - q)).max())
-    here = q
-    for point in points[1:]:
-        found = configuration(joint, q[joint], point, sign)
-        if found is None:
-            return False
-        here = here + around(found - here)
-        if ((here < machine.lower) | (here > machine.upper)).any():
-            return False
-    return True
-
-
-LIMITS = (np.array([-2.0, -2.2, -2.0]), np.array([2.0, 2.4, 2.6]))
+from unit_links import LIMITS, arm, around, configuration, places, survives, timed
 
 
 @pytest.mark.parametrize("limits", [None, LIMITS])
@@ -83,7 +20,7 @@ def test_a_lock_is_followed_as_far_as_the_closed_form_says(limits, rng):
     for _ in range(4):
         begin, end = rng.uniform(-2, 2, (2, 2))
         path = timed(begin, end)
-        problem = posed(machine, path, None, False, "on-path", None, 31, None, None, 0.0)
+        problem = posed(machine, path, None, False, "on-path", None, 31, None, None, 0.0, spacing=0.1, seed=0, starts=8)
         found = hf.solve_ik(machine, problem.lock.poses, seed=int(rng.integers(1 << 30)), task="planar", restarts=20)
         if not found.success.all():
             continue
@@ -219,6 +156,37 @@ def test_detours_survive_what_the_ranges_of_the_joints_say(narrow):
     assert wrong <= 0.01 * total
 
 
+def test_other_motions_beside_it(narrow):
+    """As if each had been made and judged by hand; where one is off the path it survives nothing."""
+    machine, path, _ = narrow
+    index = hf.indices.relative_manipulability(machine, "planar")
+    got = hf.endure(machine, path, samples=21, spacing=0.1, compare=["least-norm", index])
+    by_hand = hf.follow(machine, path, maximise=index, method="none", samples=21, task="planar")
+    least = got.beside[0]
+    off = by_hand.position_error > 1e-3
+    assert 0 < least.off == off.mean() < 1
+    assert not least.curve[off].any()
+    assert all(other.survival <= got.bound + 1e-9 for other in got.beside)
+    free = arm()
+    got = hf.endure(free, path, samples=21, spacing=0.1, compare=["least-norm"])
+    index = hf.indices.relative_manipulability(free, "planar")
+    by_hand = hf.follow(free, path, maximise=index, method="none", samples=21, task="planar")
+    (least,) = got.beside
+    assert least.off == 0
+    assert least.survival == pytest.approx(hf.endurance_of(free, by_hand, path, samples=21).survival)
+    assert least.survival <= got.survival
+    with pytest.raises(InputError, match="least-norm"):
+        hf.endure(machine, path, samples=21, compare=["fastest"])
+
+
+def test_a_motion_for_a_controller_keeps_path_and_verdicts(narrow):
+    machine, path, best = narrow
+    motion = best.motion
+    assert motion.on_path
+    assert np.abs(motion.q[::5] - best.q).max() < 1e-9
+    assert hf.endurance_of(machine, motion, path, samples=21).survival == pytest.approx(best.survival)
+
+
 def test_a_start_is_kept(narrow):
     machine, path, best = narrow
     near = np.abs(best.found.nodes[0] - best.q[0]).max(axis=1)
@@ -253,7 +221,7 @@ def test_an_elbow_is_set_by_the_pose(name, elbow):
     assert best.found.moved[3] == pytest.approx(elbow, abs=0.01)
     assert best.by_joint[machine.joint_names[3]] <= 0.05
     assert 0.5 < best.survival <= best.bound + 1e-9 < 0.87
-    assert f"{machine.joint_names[3]}: the pose sets it" in " ".join(best.describe())
+    assert f"no self-motion moves {machine.joint_names[3]}" in " ".join(best.describe())
     assert best.speed <= 1
 
 

@@ -20,7 +20,7 @@ from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
-from holdfast.failures import Locked, locks_at
+from holdfast.failures import Locked, degraded_at
 from holdfast.files.output import writing
 from holdfast.paths.joint_table import joint_columns, read_joint_table
 from holdfast.result import Result
@@ -136,7 +136,8 @@ def check_waypoints(
     Args:
         arm: The arm.
         q: (K, n) waypoints, rad and m.
-        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it.
+        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it. Or a
+            :class:`holdfast.Degraded`, whose reduced ranges must be kept too.
         clearance: Looked at if given.
         cell: Objects around the arm, or their file; looked at if given. What the bound calls too close is asked exactly where a
             library for that is installed.
@@ -149,8 +150,13 @@ def check_waypoints(
     if not len(a) or not np.isfinite(a).all():
         raise InputError("waypoints must be one configuration or more of finite numbers")
     fine = _between(a)
-    beyond = np.maximum(np.maximum(arm.lower - fine, fine - arm.upper).max(axis=0), 0.0)
-    moved = {k: float(np.abs(fine[:, k] - value).max()) for k, value in locks_at(arm, locked, a[0]).items()}
+    degraded = degraded_at(arm, locked, a[0])
+    limits = arm if degraded is None else degraded.limited
+    beyond = np.maximum(np.maximum(limits.lower - fine, fine - limits.upper).max(axis=0), 0.0)
+    locks = {} if degraded is None else degraded.locked
+    moved = {
+        name: float(np.abs(fine[:, arm.joint_index(name)] - value).max()) for name, value in locks.items() if value is not None
+    }
     seen = chosen_clearance(arm, clearance, cell, looks=False)
     least = room = None
     closest = ""
@@ -164,7 +170,7 @@ def check_waypoints(
         poses=arm.forward_kinematics(a),
         looked_at=len(fine),
         beyond_limits={arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
-        locks_moved={arm.joint_names[k]: miss for k, miss in moved.items() if miss > 1e-12},
+        locks_moved={name: miss for name, miss in moved.items() if miss > 1e-12},
         least_clearance=least,
         least_room=room,
         closest=closest,

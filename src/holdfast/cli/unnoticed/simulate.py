@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    FailureOption,
     HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
     read_configuration,
     read_joint,
+    read_locks,
     read_numbers,
     read_target,
 )
@@ -44,6 +46,7 @@ def command(
             show_default=False,
         ),
     ] = None,
+    failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     gain: GainOption = 1.0,
@@ -60,6 +63,7 @@ def command(
     cell: TouchedCellOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     stop_at_contact: Annotated[
         bool, typer.Option("--stop-at-contact", help="With --cell: the run ends where the arm first touches an object.")
     ] = False,
@@ -83,10 +87,11 @@ def command(
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
-    touched = read_contact_shape(made.arm, capsules, radius, cell)
+    touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
     if stop_at_contact and touched is None:
         raise InputError("--stop-at-contact has nothing to stop at; add --cell")
-    alike: dict[str, Any] = {"locked": joints, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
+    locked = read_locks(made.arm, lock, degrees, failure=failure) if failure else joints
+    alike: dict[str, Any] = {"locked": locked, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
     runs = hf.simulate(made, q0, goal, cycles=cycles, stop_at_contact=stop_at_contact, **alike)
     result: Result = runs
     if physics:
