@@ -20,6 +20,7 @@ PRESENTERS = {
     "ConvergenceMap": ("convergence.maps", "convergence.maps"),
     "Curves": ("equilibria.curves", "equilibria.curves"),
     "Designs": ("designs.console", "designs.page"),
+    "FailActive": ("bench.console", "bench.figures"),
     "FreeSwing": ("physics.swing", "physics.swing"),
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
