@@ -10,7 +10,8 @@ import pytest
 
 import oracles
 from holdfast.errors import InputError, TaskError
-from holdfast.failures import failure_names, failure_sets, locks_at, read_locks, require_redundant
+from holdfast.failures import failure_names, failure_sets, locks_at, read_locks
+from holdfast.failures.sets import require_redundant
 
 
 def test_single_is_every_joint_once(mixed8):

@@ -35,6 +35,7 @@ def good() -> dict[str, Any]:
     region = hf.Region.box([1.0, 1.0, 0], [0.5, 0.5, 0])
     index = hf.indices.relative_manipulability(arm, "planar")
     run = hf.assess(arm, region, index, poses=10, after_lock=True)
+    place = arm.forward_kinematics(q)[:3, 3]
     line = hf.paths.line([1.5, 1.5, 0], [1.6, 1.5, 0])
     return {
         "arm": arm,
@@ -47,6 +48,7 @@ def good() -> dict[str, Any]:
         "runs": hf.simulate(law, q, [1.5, 1.5]),
         "path": line,
         "timed": hf.paths.TimedPath(line, hf.paths.Constant(1.0)),
+        "tiny": hf.paths.TimedPath(hf.paths.line(place, place + np.full(3, 5e-5)), hf.paths.Constant(1.0)),
         "capsules": hf.Capsules.along(arm),
     }
 
@@ -87,6 +89,21 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"arm": arm, "vary": {"a2": (0.5, 1.5)}, "region": region, "task": "planar", "objective": index.slug}
             | {"level": 0.9, "poses": 4, "designs": 4, "climbs": 0, "fresh": 4, "seed": 0, "failures": "single", "length": 1.0},
         ),
+        "endurance_of": (
+            hf.endurance_of,
+            {"arm": arm, "motion": np.tile(q, (3, 1)), "path": g["tiny"], "rates": None, "mode": "on-path", "task": "planar"}
+            | {"per_second": False, "samples": 3, "spacing": 0.3, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
+        ),
+        "endure": (
+            hf.endure,
+            {"arm": arm, "path": g["timed"], "rates": [1.0, 2.0, 0.0], "mode": "on-path", "task": "planar", "samples": 3}
+            | {"per_second": False, "spacing": 0.3, "start": None, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
+        ),
+        "endure_to": (
+            hf.endure_to,
+            {**at_planar, "start": q, "goal": target, "rates": None, "velocity": 1.0, "spacing": 0.3, "seed": 0, "starts": 4}
+            | {"per_second": False},
+        ),
         "follow": (
             hf.follow,
             {"arm": arm, "path": g["timed"], "maximise": index, "method": "gradient-projection", "q": q, "gain": 0.1}
@@ -111,6 +128,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.reachable_when_locked,
             {**at_planar, "target": target, "locked": {1: 0.3}, "seed": 0} | {"restarts": 2, "tolerance": 1e-6},
         ),
+        "Degraded": (
+            hf.Degraded,
+            {"arm": arm, "locked": {"joint2": 0.6}, "ranges": {"joint1": (-1.0, 1.0)}, "speeds": {"joint3": 0.5}},
+        ),
+        "Degraded.at": (hf.Degraded(arm, locked=[1]).at, {"q": q}),
         "recover": (
             hf.recover,
             {**at_planar, "locked": {"joint2": 0.6}, "at": q, "goal": [0.4, 0.6, 0.8], "clearance": False, "margin": 0.0}

@@ -37,6 +37,13 @@ from holdfast.designs import Designs as Designs
 from holdfast.designs import DesignSpace as DesignSpace
 from holdfast.designs import design as design
 from holdfast.designs import design_for_convergence as design_for_convergence
+from holdfast.enclosure import Configurations as Configurations
+from holdfast.enclosure import all_configurations as all_configurations
+from holdfast.endurance import Endurance as Endurance
+from holdfast.endurance import FailureRates as FailureRates
+from holdfast.endurance import endurance_of as endurance_of
+from holdfast.endurance import endure as endure
+from holdfast.endurance import endure_to as endure_to
 from holdfast.equilibria import basins as basins
 from holdfast.equilibria import stationary_points as stationary_points
 from holdfast.errors import ArmError as ArmError
@@ -45,6 +52,7 @@ from holdfast.errors import InputError as InputError
 from holdfast.errors import KernelError as KernelError
 from holdfast.errors import StoreError as StoreError
 from holdfast.errors import TaskError as TaskError
+from holdfast.failures import Degraded as Degraded
 from holdfast.indices import susceptibility as susceptibility
 from holdfast.kernels import set_threads as set_threads
 from holdfast.motion import Trajectory as Trajectory

@@ -86,14 +86,14 @@ def checked_class(made: type[T]) -> type[T]:
 _ALIASES = {
     "Vary": "DesignSpace | Iterable[str | Parameter] | Mapping[str, Any]",
     "FailureSpec": "str | int | Iterable[Any]",
-    **dict.fromkeys(("Locked", "LockedAt"), "Mapping | str | int | Sequence[Any] | ndarray"),
-    "LockedValues": "Mapping",
+    **dict.fromkeys(("Locked", "LockedAt"), "Mapping | str | int | Sequence[Any] | ndarray | Degraded"),
+    "LockedValues": "Mapping | Degraded",
     "Limits": "ArrayLike | Mapping[str | int, ArrayLike]",
     "TaskSpec": "str | Task | Sequence[str]",
     "CellLike": "Cell | str | Path",
     "Array": "ArrayLike",
     "Progress": "Callable",
-    **dict.fromkeys(("JointType", "Method", "MetricName", "Over", "RelativeTo", "Sampling"), "str"),
+    **dict.fromkeys(("JointType", "Method", "MetricName", "Mode", "Over", "RelativeTo", "Sampling"), "str"),
 }
 
 
@@ -185,8 +185,8 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
     "ndarray": ("an array", lambda x: isinstance(x, np.ndarray)),
 }
 _CLASSES = (
-    *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "DesignSpace", "Index", "Joint", "Law", "Link", "Objective"),
-    *("Parameter", "Places", "Region", "Servos", "Task", "TimedPath"),
+    *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "Degraded", "DesignSpace", "FailureRates", "Index", "Joint"),
+    *("Law", "Link", "Objective", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath", "Trajectory"),
 )
 
 

@@ -122,3 +122,47 @@ def test_a_changed_cell_compiles_nothing(rng, scene):
     made = first.obstacles._formulas._distance_kernel.made_of
     assert made is not None
     assert made == second.obstacles._formulas._distance_kernel.made_of
+
+
+def room_of_the_end(clearance, poses, values):
+    """(N, V) least room of the last two links with the tool at poses and the last joint at values, by frames and formulas."""
+    arm, balls, cell = clearance.arm, clearance.obstacles.balls, clearance.cell
+    last = poses[:, None] @ np.linalg.inv(arm.tool)
+    back = np.array([np.linalg.inv(arm.joints[-1].origin @ arm.joints[-1].motion(value)) for value in values])
+    out = np.full((len(poses), len(values)), np.inf)
+    for link, frame in ((arm.n - 1, last), (arm.n - 2, last @ back)):
+        for k in np.flatnonzero((balls.link == link) & (link >= 0)):
+            centre = frame[..., :3, :3] @ balls.centre[k] + frame[..., :3, 3]
+            for solid in cell:
+                if (solid.name, arm.joint_names[link]) not in cell.may_touch:
+                    np.minimum(out, solid.signed_distance(centre) - balls.radius[k] - cell.margin_of(solid), out=out)
+    return out
+
+
+@pytest.mark.parametrize("types", ["RRPRRR", "RRCRP", "RC", "R"])
+def test_a_pose_that_is_never_clear_is_so_wherever_its_last_joint_is(rng, types):
+    arm, cell = oracles.random_arm(rng, types=types, limits=2.0), random_cell(rng)
+    mounted = [(solid.name, "base") for solid in cell]
+    cell = hf.Cell(cell.objects, may_touch=[("o0", arm.joint_names[-1]), *mounted])
+    clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.1), cell, itself=False)
+    poses = np.array([oracles.random_pose(rng, 1.0) for _ in range(120)])
+    low, high = max(arm.lower[-1], -np.pi), min(arm.upper[-1], np.pi)
+    best = room_of_the_end(clearance, poses, np.linspace(low, high, 60)).max(axis=1)
+    margin = float(np.quantile(best, 0.7))
+    found = clearance.obstacles.never_clear(poses, margin)
+    # A sphere goes no farther between two of the angles than half of what the joint does between them.
+    far = 1.0 if types[-1] == "P" else np.linalg.norm(clearance.obstacles.balls.centre, axis=1).max() + 0.7
+    assert not (found & (best >= margin)).any()
+    assert found[best < margin - far * (high - low) / 48 - 2e-5].all()
+    assert 0 < found.sum() < 120
+
+
+def test_nothing_is_said_of_a_pose_where_there_is_nothing_to_say_it_by(rng):
+    arm = oracles.random_arm(rng, types="RRRR", limits=2.0)
+    first = hf.Capsules((hf.clearance.Capsule(0, (0, 0, 0), (0.1, 0, 0), radius=0.05),))
+    poses = arm.forward_kinematics(rng.normal(size=(3, 4)))
+    cloud = hf.cell.Points("scan", points=rng.normal(size=(20, 3)) + 4, radius=0.01)
+    for capsules, cell in ((first, random_cell(rng)), (hf.Capsules.along(arm, 0.1), hf.Cell([cloud]))):
+        seen = hf.Clearance(arm, capsules, cell, itself=False).obstacles
+        assert not seen.never_clear(poses, 10.0).any()
+        assert seen.never_clear(poses[:0], 10.0).shape == (0,)

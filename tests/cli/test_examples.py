@@ -22,6 +22,8 @@ from holdfast.present.results import printed, printed_each
 
 FILES = {
     "path.yaml": "line: {from: {xyz: [0.45, -0.1, 0.5]}, to: {xyz: [0.45, 0.1, 0.5]}}\ntiming: {duration: 2}\n",
+    "line.yaml": "angles: deg\nline: {from: {xyz: [0.45, -0.1, 0.4], urdf_rpy: [180, 0, 0]}, to: {xyz: [0.45, 0.1, 0.4]}}\n"
+    "timing: {duration: 2}\n",
     "bench.yaml": "objects: {table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.6, 0, -0.02]}}}\n",
     "cell.yaml": "box: {center: [0.5, 0, 0.5], size: 0.1, rpy_center: [180, 0, 0], rpy_size: 10}\nangles: deg\n",
 }
@@ -45,6 +47,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "optimise": "--starts 2",
     "design": "--designs 4 --climbs 1 --poses 8 --fresh 32",
     "follow": "--samples 11",
+    "endure": "--samples 5 --spacing 0.3",
     "recover": "--samples 0",
     "free-swing": "--duration 0.2",
     "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",

@@ -132,3 +132,45 @@ def test_the_command_keeps_clear_of_a_cell_and_a_replay_sees_it(cli, tmp_path):
     code, text, _ = cli(*locked, ways[1])
     assert (code, "kept" in text) == (0, True)
     assert len(read_waypoints(hf.arms.load("planar-3r"), ways[1])) > 2
+
+
+def test_a_failure_file_says_more_than_locks(cli, tmp_path):
+    file = tmp_path / "failure.yaml"
+    file.write_text("locked: [joint2]\nrange: {joint1: [0, 1.4]}\n")
+    call = [
+        "recover",
+        "planar-3r",
+        "--failure",
+        file,
+        "--at",
+        "20 40 60",
+        "--degrees",
+        "--goal",
+        "pose:1.5,1.5,0",
+        "--samples",
+        "0",
+    ]
+    code, text, err = cli(*call, "--json", "--csv", tmp_path / "w.csv")
+    assert (code, err) == (0, "")
+    data = json.loads(text)
+    assert data["degraded"] == {"locked": {"joint2": pytest.approx(np.deg2rad(40))}, "range": {"joint1": [0, 1.4]}}
+    assert all(0 <= q[0] <= 1.4 for q in data["waypoints"])
+    code, text, _ = cli("recover", "planar-3r", "--failure", file, "--check", tmp_path / "w.csv")
+    assert (code, "limits and locks are kept" in text.lower()) == (0, True)
+    code, _, err = cli(*call, "--lock", "1")
+    assert code == 2
+    assert "--failure and --lock both say what is locked" in err
+    code, text, _ = cli("basins", "planar-3r", "--target", "1.5,1.5", "--failure", file)
+    assert code == 2
+
+
+def test_simulate_and_stationary_points_read_a_failure_file(cli, tmp_path):
+    file = tmp_path / "failure.yaml"
+    file.write_text("locked: {joint2: 0.7}\n")
+    same = ["--target", "1.5,1.5", "--json"]
+    for call in (["stationary-points", "planar-3r"], ["simulate", "planar-3r", "--start", "0.3 0.7 1"]):
+        lock = ["--lock", "2=0.7"] if call[0] == "stationary-points" else ["--lock", "2"]
+        found, plain = (json.loads(cli(*call, *same, *how)[1]) for how in (["--failure", file], lock))
+        for data in (found, plain):
+            data.pop("command", None)
+        assert found == plain

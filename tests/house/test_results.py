@@ -30,8 +30,8 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison "
-        "Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing LawChoice "
+        "LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
@@ -51,6 +51,7 @@ VALUES = named(
         "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
+        "endurance": "Approach Found Injection VelocityJump",
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "indices": "Evaluation Part WorstCase",
@@ -70,7 +71,7 @@ THAWED = {"probability.Distribution"}  # values that are not frozen yet
 # Arms, tasks, settings: what an analysis is asked with.
 INPUTS = named(
     {
-        "": "Arm Capsules Cell DH DesignSpace Joint Link PointToPoint Region Servos Task",
+        "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
@@ -133,6 +134,8 @@ def test_every_function_returns_what_is_in_a_list():
         "T",
         "None",
         "tuple",
+        "FailureSets",
+        "FailureSpec",
         "ThreadPoolExecutor",
         "bool",
         "int",

@@ -152,6 +152,10 @@ def test_equal_things_have_equal_digests_and_others_others(rng):
     assert digest_of("ab", "c") != digest_of("a", "bc")
     assert digest_of(np.zeros(4)) != digest_of(np.zeros((2, 2)))
     assert digest_of(0.0) != digest_of(-0.0)
+    some, turned = set(range(0, 24, 8)), set(range(16, -8, -8))
+    assert list(some) != list(turned)
+    assert digest_of(some) == digest_of(turned) != digest_of(frozenset(some))
+    assert digest_of({("a", "b"), ("c", "d")}) != digest_of({("a", "c"), ("b", "d")})
 
 
 @dataclass(frozen=True)
@@ -163,7 +167,14 @@ def test_what_is_somebody_elses_has_no_digest(mixed5):
     """Its code may change where nobody looks."""
     holds_itself: list[object] = []
     holds_itself.append(holds_itself)
-    for thing in (Mine(1.0), lambda x: x, CustomIndex(ca.sumsqr, mixed5, "position"), ca.SX.sym("x"), {1, 2}, holds_itself):
+    for thing in (
+        Mine(1.0),
+        lambda x: x,
+        CustomIndex(ca.sumsqr, mixed5, "position"),
+        ca.SX.sym("x"),
+        {Mine(1.0)},
+        holds_itself,
+    ):
         assert digest_of(thing) is None
 
 

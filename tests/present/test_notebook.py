@@ -69,6 +69,7 @@ MADE = {
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
     "ConvergenceMap": lambda: mapped(),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
+    "Endurance": found(lambda: hf.endure(arm(), timed(), task="planar", samples=5, spacing=0.3)),
     "Law": law,
     "LawChoice": found(lambda: hf.best_law([law(), hf.control.damped(arm(), 0.3, "planar")], 1, 2, configurations=1)),
     "LawComparison": found(
@@ -142,6 +143,19 @@ def test_a_figure_is_plotted_by_its_name():
         choice.plot("x")
     with pytest.raises(InputError, match=r"WaypointCheck has no figure; ask result.ok instead"):
         MADE["WaypointCheck"]().plot()
+
+
+@pytest.mark.parametrize("name", ["ConvergenceMap", "LawComparison"])
+def test_a_figure_that_nobody_asks_for_is_not_drawn(name, monkeypatch):
+    result, made = MADE[name](), []
+    make = Figure.__init__
+    monkeypatch.setattr(Figure, "__init__", lambda self, *args, **options: made.append(self) or make(self, *args, **options))
+    names = list(result._presented("drawings"))
+    assert len(names) > 1
+    assert made == []
+    assert result.plot(names[-1]) in made
+    assert len(made) == 1
+    assert list(result.figures()) == names
 
 
 def plt_knows_nothing():

@@ -145,6 +145,14 @@ def plane_normal(arm: Machine) -> Array | None:
     return np.asarray(normal * (1.0 if normal[np.argmax(np.abs(normal))] > 0 else -1.0))
 
 
+def task_of_path(arm: Machine, oriented: bool) -> str:
+    """The rows of a path that matter if nobody says so: of an arm that moves in a plane those in it."""
+    flat = plane_normal(arm) is not None
+    if oriented:
+        return "planar-pose" if flat else "pose"
+    return "planar" if flat else "position"
+
+
 def as_task(arm: Machine, task: str | Task | Sequence[str], length: float | None = None) -> Task:
     """The task of an arm from its name, a list of rows, or itself.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assessment.plan import LOCK_RESTARTS, Plan, Rows
+from holdfast.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, Plan, Rows
 from holdfast.indices.index import Evaluation, WorstCase
 from holdfast.solvers.inverse_kinematics import Accept, solver
 from holdfast.solvers.optimum import Ascent, default_starts, objective_ascent
@@ -136,8 +136,12 @@ def _clear(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """The configurations q (N, n) of the poses that are reached, and others of those where q is not clear enough."""
     engine, some = solver(plan.arm, plan.index.task), np.flatnonzero(reached & ~enough)
+    around = None if plan.clearance is None else plan.clearance.obstacles
+    if around is not None and plan.index.task.m == 6:
+        some = some[~around.never_clear(poses[some], plan.margin)]
     seed = np.random.SeedSequence(plan.seed, spawn_key=(4, number))
-    found = engine.solve(poses[some], seed, LOCK_RESTARTS, engine.within(TOLERANCE), accept=_accept(plan))
+    tolerance, accept = engine.within(TOLERANCE), _accept(plan)
+    found = engine.solve(poses[some], seed, CLEAR_RESTARTS, tolerance, accept=accept, steps=CLEAR_STEPS)
     q, clear = q.copy(), reached & enough
     q[some], clear[some] = found.q, found.success
     return q, clear

@@ -33,6 +33,7 @@ Rows = dict[str, NDArray[Any]]
 _POSES = 2000  # unless asked otherwise
 _CHUNK_BLOCKS = 8
 LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
+CLEAR_RESTARTS, CLEAR_STEPS = 30, 20  # the same to keep clear: every tenth start takes longer, and costs as much as two others
 
 _SURVIVES = (
     "1 if the pose can still be reached once the joint has locked where it was at another pose, 0 if not found, -1 unknown"

@@ -25,7 +25,7 @@ from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import recalled, recalled_data
 from holdfast.linalg import Vector, dot, smallest
 from holdfast.probability.sobol_sequence import sobol
 
@@ -106,7 +106,7 @@ class Clearance:
 
     def _in(self, cell: Cell | None) -> Clearance:
         other = copy(self)
-        vars(other).pop("_exactness", None)
+        vars(other).pop("exactness", None)
         other._meet(cell)
         return other
 
@@ -141,23 +141,22 @@ class Clearance:
             elif (low, high) in self.capsules.ignore or (min(a, b), max(a, b)) in self.capsules.apart:
                 reasons[a, b] = "to be ignored"
         open_pairs = [pair for pair in different if pair not in reasons]
-        for pair, share in zip(open_pairs, self._overlaps(open_pairs), strict=True):
+        for pair, share in zip(open_pairs, self._overlaps(open_pairs) if open_pairs else [], strict=True):
             if share >= _ALWAYS:
                 reasons[pair] = f"overlap in {100 * share:.1f} % of {_SAMPLES} configurations within the limits"
             else:
                 self.pairs.append(pair)
         self.ignored = [IgnoredPair(pair, self._name(pair), reasons[pair]) for pair in different if pair in reasons]
 
-    def _overlaps(self, pairs: list[Pair]) -> Array:
+    @recalled_data
+    def _overlaps(self, pairs: list[Pair]) -> list[float]:
         """Share of configurations in which each pair overlaps."""
-        if not pairs:
-            return np.zeros(0)
         low, high = finite_limits(self.arm)
         q = low + (high - low) * sobol(_SAMPLES, self.arm.n)
         x = kinematics.joint_symbols(self.arm)
         # Used once: the virtual machine needs no compilation.
         values = Kernel("overlaps", [x], [ca.vertcat(*self._distances(self._segments(x), pairs))], backend="casadi").rows(q)
-        return np.asarray((values < 0).mean(axis=0))
+        return [float(share) for share in (values < 0).mean(axis=0)]
 
     def _name(self, pair: Pair) -> str:
         return " & ".join(self.capsules.label(self.arm, part) for part in pair)
@@ -294,7 +293,8 @@ class Clearance:
         return values if beside is None else np.minimum(values, beside(q))
 
     @cached_property
-    def _exactness(self) -> Exactness:
+    def exactness(self) -> Exactness:
+        """What is asked exactly, by a library."""
         ignored, alone, held = [x.pair for x in self.ignored], self.alone, () if self.cell is None else self.cell.held
         from holdfast.clearance.exact.exactness import Exactness  # takes long to import
 
@@ -305,11 +305,11 @@ class Clearance:
 
         Margins do not count, less than 1e-6 m may, and a row that is not finite is not clear. Needs python-fcl or coal.
         """
-        return self._of_rows(q, self._exactness.clear)
+        return self._of_rows(q, self.exactness.clear)
 
     def exact(self, q: ArrayLike) -> Array:
         """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is."""
-        return self._of_rows(q, self._exactness.distances)
+        return self._of_rows(q, self.exactness.distances)
 
     def _of_rows(self, q: ArrayLike, ask: Callable[[Array], NDArray[Any]]) -> NDArray[Any]:
         rows, single = as_configurations(self.arm, q)
@@ -319,7 +319,7 @@ class Clearance:
     @property
     def exact_by(self) -> str:
         """The library that :meth:`exact` asks, and how right it is: ``coal 3.0.3, to 0.001 mm``."""
-        return self._exactness.library
+        return self.exactness.library
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
         """Position in ``pair_names`` of the pair with the least room, the first of several, (N,) or a scalar.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.engines import installed
 
 Array = NDArray[np.float64]
 
@@ -17,6 +18,8 @@ SPACING = 0.05  # rad and m: how far a joint goes between two instants at most b
 FINEST = 5e-4  # m: between instants with less change than this nothing more is looked for
 SOONEST = 1e-9  # of the duration: how well the time of a contact is known
 _MOST = 60  # halvings
+_HALVINGS = 12  # of half a millimetre, for when the bodies touch
+_AT_ONCE = 64  # instants
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +32,8 @@ class Contact:
         link: By the joint that moves it, with the number of the capsule where two links meet and one has several.
         object: Of the cell; or the other link.
         depth: How far below 0 the bound goes on the motion, m, to half a millimetre: the arm is no deeper in the object.
+        exact_time: When the bodies themselves first touch, by an exact library: infinite if they do not on the motion; None
+            where none is installed.
     """
 
     run: int = 0
@@ -36,11 +41,24 @@ class Contact:
     link: str
     object: str
     depth: float
+    exact_time: float | None = None
 
     def sentence(self, unit: str = "s") -> str:
         """What happened, for people; the unit is that of the time."""
-        at = f"in cycle {int(self.time) + 1}" if unit == "cycles" else f"at {self.time:.4g} {unit}"
-        return f"{at} {self.link} touches {self.object}"
+        return f"{_moment(self.time, unit)} {self.link} touches {self.object}{self.confirmation(unit)}"
+
+    def confirmation(self, unit: str = "s") -> str:
+        """What the exact library says of it, where one was asked: what follows the sentence."""
+        if self.exact_time is None:
+            return ""
+        if np.isinf(self.exact_time):
+            return ", by the bound; exactly, it does not"
+        moments = [_moment(t, unit) for t in (self.time, self.exact_time)]
+        return ", exactly" if moments[0] == moments[1] else f", by the bound; exactly, {moments[1]}"
+
+
+def _moment(time: float, unit: str) -> str:
+    return f"in cycle {int(time) + 1}" if unit == "cycles" else f"at {time:.4g} {unit}"
 
 
 def first_contacts(clearance: Clearance, time: Array, q: Array, at: Callable[[Array], Array] | None = None) -> list[Contact]:
@@ -83,8 +101,14 @@ def first_contacts(clearance: Clearance, time: Array, q: Array, at: Callable[[Ar
     for pair in np.flatnonzero(touch.any(axis=0)):
         first = int(touch[:, pair].argmax())
         when = float(time[0]) if not first else _crossing(clearance, int(pair), time[first - 1 : first + 1], found)
+        exact = None
+        if installed():
+            near = np.flatnonzero((gaps[:-1, pair] + gaps[1:, pair] < most[:, pair]) & (time[1:] > when))
+            steps = np.ceil(most[near, pair] / FINEST).astype(np.int64)
+            instants = [np.linspace(time[k], time[k + 1], n, endpoint=False) for k, n in zip(near, steps, strict=True) if n]
+            exact = _exact_time(clearance, int(pair), np.concatenate([*instants, time[-1:]]), when, found)
         link, _, thing = clearance.pair_names[pair].partition(" & ")
-        contacts.append(Contact(time=when, link=link, object=thing, depth=float(-gaps[:, pair].min())))
+        contacts.append(Contact(time=when, link=link, object=thing, depth=float(-gaps[:, pair].min()), exact_time=exact))
     return sorted(contacts, key=lambda contact: contact.time)
 
 
@@ -97,6 +121,25 @@ def _spaced(time: Array, q: Array, at: Callable[[Array], Array]) -> tuple[Array,
         middle = (time[rows - 1] + time[rows]) / 2
         time, q = np.insert(time, rows, middle), np.insert(q, rows, at(middle), axis=0)
     return time, q
+
+
+def _exact_time(clearance: Clearance, pair: int, instants: Array, after: float, at: Callable[[Array], Array]) -> float:
+    """When the bodies of a pair first touch at one of some instants, or between it and the one before; infinite if at none."""
+    instants = np.concatenate([[after], instants[instants > after]])
+    for start in range(0, len(instants), _AT_ONCE):
+        when = instants[start : start + _AT_ONCE]
+        hits = clearance.exactness.touches(at(when), pair)
+        if hits.any():
+            k = start + int(hits.argmax())
+            clear, touching = float(instants[max(k - 1, 0)]), float(instants[k])
+            for _ in range(_HALVINGS if k else 0):
+                middle = (clear + touching) / 2
+                if clearance.exactness.touches(at(np.array([middle])), pair)[0]:
+                    touching = middle
+                else:
+                    clear = middle
+            return touching
+    return float("inf")
 
 
 def _crossing(clearance: Clearance, pair: int, between: Array, at: Callable[[Array], Array]) -> float:

@@ -22,6 +22,7 @@ from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
 from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
+from holdfast.clearance.objects.end_links import EndLinks
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
 
@@ -149,6 +150,11 @@ class Obstacles:
             else None
         )
 
+    @cached_property
+    def _end_links(self) -> EndLinks:
+        added = self.added(np.arange(self.arm.n), self._plain)
+        return EndLinks(self.arm, self.balls, self._formulas.objects, added, self._own_margins[self._plain])
+
     # ---- what is asked -------------------------------------------------------------------------------------------
 
     def nearest(self, q: Array) -> tuple[Array, Indices, Array]:
@@ -189,6 +195,13 @@ class Obstacles:
         if self._gridded is not None:
             out[:, :, self._grids] = self._gridded.distances(q)
         return out.reshape(len(q), len(self.pairs))
+
+    def never_clear(self, poses: Array, margin: float) -> NDArray[np.bool_]:
+        """(N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 keeps a margin, m, beyond its own.
+
+        Proved by the places that the last two links can have, for objects with a formula; False proves nothing.
+        """
+        return self._end_links.too_close(poses, margin)
 
     def gap(self, q: Array) -> Gap:
         """What is nearest at one configuration (n,), once every pair has what it must keep."""

@@ -119,6 +119,15 @@ def read_clearance(
     return found
 
 
+def read_kept(
+    arm: Arm, wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, cell: Path | None
+) -> Clearance | None:
+    """What a motion keeps clear of: nothing unless an option asks for it."""
+    if cell is None and not wanted and capsules is None and radius is None and margin is None:
+        return None
+    return read_clearance(arm, wanted, capsules, radius, margin, chooses=True, cell=cell)
+
+
 def read_contact_shape(arm: Arm, capsules: Path | None, radius: float | None, cell: Path | None) -> Clearance | None:
     """What an arm may touch in a cell, where a command says what it does touch; None without a cell.
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from holdfast.arm.machine import Joint
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
+    from holdfast.failures import Degraded
     from holdfast.indices.objective import Objective
 
 ArmArgument = Annotated[
@@ -49,6 +50,10 @@ HoldOption = Annotated[
         "given again.",
         show_default=False,
     ),
+]
+FailureOption = Annotated[
+    Path | None,
+    typer.Option("--failure", help="What is locked, has lost range or is slow (YAML file), for --lock.", show_default=False),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
@@ -136,8 +141,18 @@ def read_by_joint(
     return found
 
 
-def read_locks(arm: Arm, texts: list[str] | None, degrees: bool, alone: bool = False) -> dict[str | int, Any]:
-    """--lock of a command that has --degrees; see :func:`read_by_joint`."""
+def read_locks(
+    arm: Arm, texts: list[str] | None, degrees: bool, alone: bool = False, failure: Path | None = None
+) -> dict[str | int, Any] | Degraded:
+    """--lock of a command that has --degrees, see :func:`read_by_joint`, or what --failure names."""
+    if failure is not None:
+        from holdfast.failures import Degraded
+
+        if texts:
+            raise InputError("--failure and --lock both say what is locked; give one of them")
+        return Degraded.load(failure, arm)
+    if not texts:
+        raise InputError(f"give --lock, the joint that is locked, for example --lock {arm.joint_names[0]}, or --failure")
     found = read_by_joint(arm, texts, "--lock", degrees, alone)
     given = {name: value for name, value in found.items() if value is not None}
     check_unit_of_joints([arm.joints[arm.joint_index(name)] for name in given], list(given.values()), "--lock", degrees)

@@ -36,6 +36,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "susceptibility": "before.susceptibility",
     "optimise": "before.optimise",
     "follow": "before.follow",
+    "endure": "before.endure",
     "trade-off": "before.trade_off",
     "design": "before.design",
     "simulate": "unnoticed.simulate",

@@ -17,7 +17,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.errors import TaskError
-from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
+from holdfast.failures import FailureSpec, failure_names, failure_sets
+from holdfast.failures.sets import require_redundant
 from holdfast.indices.objective import Better, Objective, Part
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX

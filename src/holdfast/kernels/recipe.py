@@ -89,6 +89,8 @@ def _pieces(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _several([item for pair in x.items() for item in pair], inside)
     elif kind in (tuple, list):
         yield from _several(x, inside)
+    elif kind in (set, frozenset):  # whose order differs from start to start
+        yield from _several(sorted(b"".join(_several([item], inside)) for item in x), inside)
     elif hasattr(x, "made_of"):
         _ours(kind)
         if x.made_of is None:

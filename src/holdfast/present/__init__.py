@@ -21,6 +21,7 @@ PRESENTERS = {
     "Curves": ("equilibria.curves", "equilibria.curves"),
     "Designs": ("designs.console", "designs.page"),
     "FailActive": ("bench.console", "bench.figures"),
+    "Endurance": ("endurance.console", "endurance.page"),
     "FreeSwing": ("physics.swing", "physics.swing"),
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 import shlex
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from markupsafe import Markup
     from matplotlib.figure import Figure
     from rich.console import Console
+
+    Drawings = dict[str, Callable[[], Figure]]
 
 
 def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any) -> None:
@@ -85,10 +88,24 @@ def tables(result: Result) -> list[Rows]:
     return []
 
 
-def figures(result: Result) -> dict[str, Figure]:
-    """None."""
-    del result
-    return {}
+def figures(result: Result, **options: Any) -> dict[str, Figure]:
+    """All that it can draw."""
+    return {name: draw() for name, draw in result._presented("drawings", **options).items()}
+
+
+def drawings(result: Result, **options: Any) -> Drawings:
+    """Its figures by name, drawn when they are asked for; one that nobody wants takes no time.
+
+    Of a class that has none of its own they are what it draws at once, if anything.
+    """
+    names = [each.__name__ for each in type(result).__mro__]
+    at_once = presenter(names, "figures")
+    drawn = {} if at_once is figures else at_once(result, **options)
+    return {name: partial(_itself, figure) for name, figure in drawn.items()}
+
+
+def _itself(figure: Figure) -> Figure:
+    return figure
 
 
 def story(result: Result) -> Story:
@@ -170,18 +187,18 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
     """One of its figures, the first if none is named, which a notebook shows whether or not pyplot was imported."""
     from holdfast.present.notebook import shown_alone
 
-    found = result.figures(**options) if name or options else result._presented("main_figure")
+    found = result._presented("drawings", **options) if name or options else result._presented("main_figure")
     if not found:
         steps = " or ".join(step.partition("  #")[0] for step in result._presented("next_steps", "result"))
         raise InputError(f"{type(result).__name__} has no figure; ask {steps} instead")
     if name and name not in found:
         raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(found)}")
-    return shown_alone(found[name] if name else next(iter(found.values())))
+    return shown_alone(found[name or next(iter(found))]())
 
 
-def main_figure(result: Result) -> dict[str, Figure]:
+def main_figure(result: Result) -> Drawings:
     """The first of its figures with its name; nothing where it has none. What is quicker alone says so."""
-    return dict(list(result.figures().items())[:1])
+    return dict(list(result._presented("drawings").items())[:1])
 
 
 def sentences(thing: Any) -> list[str]:
@@ -211,7 +228,7 @@ def picture(thing: Shown, about: str) -> str:
     from holdfast.present.notebook import image
 
     drawn = thing._presented("main_figure") if isinstance(thing, Result) else {}
-    return "".join(image(figure, f"{name}: {about}") for name, figure in drawn.items())
+    return "".join(image(draw(), f"{name}: {about}") for name, draw in drawn.items())
 
 
 def in_notebook(thing: Shown) -> str:

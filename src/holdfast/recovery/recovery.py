@@ -13,7 +13,9 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import Sharper
 from holdfast.errors import HoldfastError, StoreError
+from holdfast.failures import Degraded
 from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
@@ -92,8 +94,7 @@ class Recovery(Result):
     """What an arm with joints known to be locked can still do; see :func:`holdfast.recover`.
 
     Attributes:
-        arm: The arm.
-        locked: Where each locked joint is, by name, rad or m.
+        degraded: What is left of the arm: each locked joint with its value, reduced ranges and speeds.
         at: (n,) where the arm is, rad and m.
         goal: What was asked for, for people.
         goal_pose: (4, 4) of the end effector, m, world; None if only a tool path was asked for.
@@ -111,13 +112,13 @@ class Recovery(Result):
         found: Configurations of the goal that were found and are clear.
         metric: ``travel`` or ``time``.
         unit: Of lengths: ``rad`` (1 m of a slide counts as 1 rad) or ``s``.
-        clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None.
+        clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None. With a cell it is
+            the bound, or where that leaves less the exact distances of :class:`holdfast.clearance.exact.sharper.Sharper`.
         margin: m.
         seed: The same seed gives the same result.
     """
 
-    arm: Arm
-    locked: dict[str, float]
+    degraded: Degraded
     at: Array
     goal: str
     goal_pose: Array | None
@@ -138,6 +139,16 @@ class Recovery(Result):
     clearance: Clearance | None
     margin: float
     seed: int
+
+    @property
+    def arm(self) -> Arm:
+        """The arm, healthy."""
+        return self.degraded.arm
+
+    @property
+    def locked(self) -> dict[str, float]:
+        """Where each locked joint is, by name, rad or m."""
+        return {name: value for name, value in self.degraded.locked.items() if value is not None}
 
     @property
     def cell(self) -> Cell | None:
@@ -173,7 +184,7 @@ class Recovery(Result):
         """
         if not len(self.q):
             raise StoreError(f"there are no waypoints to write: {self.ending.sentence}")
-        return write_waypoints(self.arm, self.q, file)
+        return write_waypoints(self.degraded.limited, self.q, file)
 
     def check(self) -> WaypointCheck:
         """Replay the waypoints in small steps; see :func:`holdfast.recovery.check_waypoints`.
@@ -181,22 +192,18 @@ class Recovery(Result):
         Raises:
             InputError: There is no motion.
         """
-        return check_waypoints(self.arm, self.q, self.locked, clearance=self.clearance, margin=self.margin)
+        return check_waypoints(self.arm, self.q, self.degraded, clearance=self.clearance, margin=self.margin)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        locked = ", ".join(
-            f"{name} at {value:.4g} m"
-            if self.arm.joints[self.arm.joint_index(name)].prismatic
-            else f"{name} at {np.rad2deg(value):.4g} deg"
-            for name, value in self.locked.items()
-        )
         lines = [
-            f"{self.arm.title}, locked: {locked}; goal: {self.goal}",
+            f"{self.arm.title}, {self.degraded.describe()}; goal: {self.goal}",
             f"{capitalised(self.ending.phrase)}: {self.ending.sentence}",
         ]
         if self.reason:
             lines.append(self.reason)
+        if len(self.q) and isinstance(self.clearance, Sharper):
+            lines.append(f"by the bound this is not clear; it is by exact distances ({self.clearance.exact_by}), all the way")
         if self.given_up is not None:
             lines.append(f"given up: {self.given_up}")
         others = [str(c) for c in self.choices if self.given_up is None or not set(c.names) <= set(self.given_up.names)]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.clearance.clearance import Clearance
+from holdfast.failures import Degraded
 from holdfast.notice import Count
 from holdfast.probability.intervals import Interval, Sums
 from holdfast.recovery.rows import RowSolver
@@ -31,11 +32,11 @@ class WhatIsLeft(Result):
         of_region: Share of all poses of the region that are left; None without a region.
         healthy_of_region: The same of the healthy arm; None without a region.
         region: What was sampled, for people.
-        joints: Names of the locked joints.
+        degraded: What is locked, or has lost a part of its range.
         rows: The rows of the target that count.
         position: (N, 3) of the targets, m, world.
         healthy: (N,) True where the healthy arm reaches them.
-        locked: (N,) True where the failed arm does.
+        locked: (N,) True where the degraded arm does.
         starts: Random starts per target.
     """
 
@@ -43,7 +44,7 @@ class WhatIsLeft(Result):
     of_region: Interval | None
     healthy_of_region: Interval | None
     region: str
-    joints: tuple[str, ...]
+    degraded: Degraded
     rows: tuple[str, ...]
     position: Array
     healthy: Flags
@@ -64,8 +65,7 @@ class WhatIsLeft(Result):
 
 def what_is_left(
     solver: RowSolver,
-    at: Array,
-    free: Flags,
+    degraded: Degraded,
     clearance: Clearance | None,
     margin: float,
     region: Region | None,
@@ -75,16 +75,17 @@ def what_is_left(
     """Sample targets and see which are still reached.
 
     Args:
-        solver: Of the rows that count.
-        at: (n,) where the joints that are not free are.
-        free: (n,) joints that move.
+        solver: Of the rows that count, within the limits in force.
+        degraded: What is left of the arm.
         clearance: Whose room is kept at least at ``margin``, if given.
         margin: m.
         region: Of targets; without one they are the poses of random configurations of the healthy arm.
         samples: How many.
         seed: Of the run.
     """
-    arm = solver.arm
+    arm, free = degraded.arm, degraded.moves
+    failed, solver = solver, solver.within(arm)
+    at = np.where(free, 0.0, degraded.lo)
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
     weights, heaviest = np.ones(samples), 0.0 if region is None else region.heaviest
     if region is None:
@@ -100,13 +101,13 @@ def what_is_left(
         healthy = _reached(solver, poses, at, np.ones(arm.n, dtype=bool), clearance, margin, rng)
         name = region.name
     locked = healthy.copy()
-    locked[healthy] = _reached(solver, poses[healthy], at, free, clearance, margin, rng)
+    locked[healthy] = _reached(failed, poses[healthy], at, free, clearance, margin, rng)
     return WhatIsLeft(
         left=_share(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
         of_region=None if region is None else _share(weights, locked, heaviest),
         healthy_of_region=None if region is None else _share(weights, healthy, heaviest),
         region=name,
-        joints=tuple(np.array(arm.joint_names)[~free].tolist()),
+        degraded=degraded,
         rows=solver.rows.names,
         position=poses[:, :3, 3],
         healthy=healthy,

@@ -28,6 +28,7 @@ Frame = Literal["base", "tool"]
 
 TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
 _STEPS = 60
+_FAR = 1e300  # rad and m, for a limit that is not there: a loop takes an infinite input for a missing one
 _LIGHT = 1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
 
 
@@ -93,17 +94,14 @@ def _log_slope(phi: SX) -> SX:
     return ca.SX.eye(3) + cross / 2 + factor * (cross @ cross)
 
 
-class RowSolver:
-    """Damped least squares on weighted rows with some joints locked: one kernel for every set of rows and joints.
+class _Kernels:
+    """The rows of a task as compiled functions of one arm; limits and locks are among their inputs.
 
     The Jacobian is the exact derivative of the error, also where rows that are given up leave a large one.
     """
 
     def __init__(self, arm: Arm, rows: Rows) -> None:
         self.arm, self.rows = arm, rows
-        unit = arm.length_unit
-        self._scale = np.where(np.array(rows.units) == "m", unit, 1.0)
-        self._tolerance = TOLERANCE / max(unit, 1.0)
 
     @cached_property
     def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
@@ -112,17 +110,19 @@ class RowSolver:
 
     @cached_property
     @recalled
-    def _loop(self) -> Loop:
+    def loop(self) -> Loop:
         arm = self.arm
         q, p, r, error, slope = self._symbols
         weights, free = ca.SX.sym("w", self.rows.m), ca.SX.sym("free", arm.n)
+        low, high = ca.SX.sym("low", arm.n), ca.SX.sym("high", arm.n)
         pull = ca.horzcat(*[weights * slope[:, k] * free[k] for k in range(arm.n)])
-        step, residual = damped_step(arm, q, weights * error, pull)
-        return Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], next_state=step, residual=residual)
+        step, residual = damped_step(arm, q, weights * error, pull, (low, high))
+        inputs = [p, r, weights, free, low, high]
+        return Loop("inverse kinematics of chosen rows", q, inputs, next_state=step, residual=residual)
 
     @cached_property
     @recalled
-    def _errors(self) -> Kernel:
+    def errors(self) -> Kernel:
         q, p, r, error, _ = self._symbols
         return Kernel("errors of the rows", [q, p, r], [ca.densify(error)])
 
@@ -148,34 +148,54 @@ class RowSolver:
         matrix = kinematics.constant(np.ascontiguousarray(rows.matrix[:, : 3 * len(parts)]))
         return matrix @ ca.vertcat(*parts), matrix @ ca.vertcat(*slopes)
 
-    def errors(self, q: Array, poses: Array) -> Array:
-        """Signed error (N, m) of every row at q (N, n), m and rad."""
-        return self._errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
-
     @cached_property
     @recalled
-    def _slopes(self) -> Kernel:
+    def slopes(self) -> Kernel:
         q, p, r, _, slope = self._symbols
         return Kernel("slopes of the rows", [q, p, r], [ca.densify(-slope)])
 
+
+class RowSolver:
+    """Damped least squares on weighted rows with some joints locked: one kernel for every set of rows, joints and limits.
+
+    Attributes:
+        arm: The arm, with the limits in force.
+        rows: The rows.
+    """
+
+    def __init__(self, kernels: _Kernels, arm: Arm) -> None:
+        self._kernels, self.arm, self.rows = kernels, arm, kernels.rows
+        unit = arm.length_unit
+        self._scale = np.where(np.array(self.rows.units) == "m", unit, 1.0)
+        self._tolerance = TOLERANCE / max(unit, 1.0)
+
+    def within(self, limited: Arm) -> RowSolver:
+        """The same for the same arm with other limits; nothing is compiled again."""
+        return RowSolver(self._kernels, limited)
+
+    def errors(self, q: Array, poses: Array) -> Array:
+        """Signed error (N, m) of every row at q (N, n), m and rad."""
+        return self._kernels.errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
+
     def slopes(self, q: Array, pose: Array) -> Array:
         """Exact derivative (m, n) of :meth:`errors` at one q (n,) and pose (4, 4)."""
-        flat = self._slopes.rows(q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
+        flat = self._kernels.slopes.rows(q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
         return np.asarray(flat.reshape(self.rows.m, self.arm.n))
 
     def run(self, q: Array, poses: Array, weights: Array, free: Flags, steps: int = _STEPS) -> Array:
         """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) locked."""
         count = len(q)
+        limits = np.clip([self.arm.lower, self.arm.upper], -_FAR, _FAR)
         parameters = np.concatenate(
             [
                 poses[:, :3, 3],
                 poses[:, :3, :3].reshape(count, 9),
                 weights / self._scale,
-                np.broadcast_to(free, (count, self.arm.n)),
+                *(np.broadcast_to(x, (count, self.arm.n)) for x in (free, *limits)),
             ],
             axis=1,
         )
-        return self._loop.run(q, parameters, (1e-2 * self._tolerance) ** 2, steps).state
+        return self._kernels.loop.run(q, parameters, (1e-2 * self._tolerance) ** 2, steps).state
 
     def meets(self, q: Array, poses: Array, kept: Array, free: Flags) -> Flags:
         """(N,) True where the joints that are free keep their limits and the rows kept (N, m) above 0 are within tolerance."""
@@ -196,16 +216,16 @@ class RowSolver:
 
 
 @lru_cache(maxsize=16)
-def _solver(
+def _kernels(
     arm: Arm, matrix: tuple[tuple[float, ...], ...], names: tuple[str, ...], linear: Frame, angular: Frame
-) -> RowSolver:
-    return RowSolver(arm, Rows(names, np.array(matrix), linear, angular))
+) -> _Kernels:
+    return _Kernels(arm, Rows(names, np.array(matrix), linear, angular))
 
 
 def row_solver(arm: Arm, task: Task) -> RowSolver:
     """The solver of an arm and the rows of a task, compiled once."""
     rows = Rows.of(task)
-    return _solver(arm, tuple(map(tuple, rows.matrix.tolist())), rows.names, rows.linear, rows.angular)
+    return RowSolver(_kernels(arm, tuple(map(tuple, rows.matrix.tolist())), rows.names, rows.linear, rows.angular), arm)
 
 
 def subsets(m: int, size: int, without: list[tuple[int, ...]]) -> list[tuple[int, ...]]:

@@ -17,8 +17,9 @@ from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arm.tree import listed
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
-from holdfast.failures import Locked, locks_at
+from holdfast.failures import Degraded, Locked, degraded_at
 from holdfast.notice import says
 from holdfast.recovery.bounds import out_of_reach
 from holdfast.recovery.continuation import RestOfPath, rest_of_path
@@ -27,6 +28,7 @@ from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route
 from holdfast.recovery.rows import RowSolver, row_solver
+from holdfast.recovery.second_try import bolder
 from holdfast.regions.region import Region
 from holdfast.solvers import joint_space
 
@@ -77,7 +79,7 @@ def recover(
     tries: int = 4,
     seed: int = 0,
 ) -> Recovery:
-    """Find a route home for an arm whose locked joints are known, and say what it can still do.
+    """Find a route home for an arm of which it is known what is locked or degraded, and say what it can still do.
 
     The goal is first looked for as a whole: configurations that meet every row, within the limits, with the locks exactly where
     they are, and clear. The shortest motion found to any of them is returned. If none is found, sets of rows are given up,
@@ -86,7 +88,7 @@ def recover(
     Args:
         arm: The arm.
         locked: ``{joint: value}``, joints by name or index from 0, values in rad or m; ``{joint: None}``, or the joints alone,
-            for where ``at`` has them.
+            for where ``at`` has them. Or a :class:`holdfast.Degraded`, which also has reduced ranges and speeds.
         at: (n,) where the arm is, rad and m.
         goal: (4, 4) pose of the end effector in the world, m; (n,) a configuration; the name of one of ``arm.states`` (a
             built-in arm's home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of an arm without a
@@ -125,22 +127,20 @@ def recover(
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin}; it must be a finite number of metres")
     start = q[0]
-    stands = locks_at(arm, locked, start)
-    if not stands:
+    degraded = degraded_at(arm, locked, start)
+    if degraded is None:
         raise InputError(f"no joint is locked; name at least one, for example locked=['{arm.joint_names[0]}']")
-    if len(stands) == arm.n:
+    free, limited = degraded.moves, degraded.limited
+    if not free.any():
         raise InputError(f"all {arm.n} joints of '{arm.name}' are locked, so nothing can move; leave one free")
-    free = np.ones(arm.n, dtype=bool)
-    free[list(stands)] = False
     kept = chosen_clearance(arm, clearance, cell)
     if margin and kept is None:
         raise InputError("margin has nothing to keep: no clearance is looked at; give one")
-    length = Metric.of(arm, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
+    length = Metric.of(limited, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
     wanted = _task(arm, task, path)
-    solver = row_solver(arm, wanted)
+    solver = row_solver(arm, wanted).within(limited)
     made = Recovery(
-        arm=arm,
-        locked={arm.joint_names[k]: value for k, value in stands.items()},
+        degraded=degraded,
         at=start,
         goal="",
         goal_pose=None,
@@ -153,21 +153,24 @@ def recover(
         margin=margin,
         seed=seed,
     )
-    standing = start.copy()
-    standing[list(stands)] = list(stands.values())
-    aim = _goal(arm, goal, task is not None, standing, free, kept, margin, path)
+    standing = np.where(free, start, degraded.lo)
+    aim = _goal(degraded, goal, task is not None, standing, sharpened(kept, margin) or kept, margin, path)
     made = replace(
         made, goal=aim.text if aim is not None else "the end of the tool path", goal_pose=None if aim is None else aim.pose
     )
     if samples:
-        made = replace(made, left=what_is_left(solver, standing, free, kept, margin, region, samples, seed))
-    trouble = _trouble(arm, start, stands, kept, margin)
-    if trouble is not None:
-        return replace(made, ending=trouble[0], reason=trouble[1])
-    space = Space(arm, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
-    return _Search(made, solver, space, length, tries, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))).run(
-        standing, aim, path
-    )
+        made = replace(made, left=what_is_left(solver, degraded, kept, margin, region, samples, seed))
+
+    def attempt(kept: Clearance | None) -> Recovery:
+        asked = replace(made, clearance=kept)
+        trouble = _trouble(degraded, start, kept, margin)
+        if trouble is not None:
+            return replace(asked, ending=trouble[0], reason=trouble[1])
+        space = Space(limited, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
+        rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
+        return _Search(asked, solver, space, length, tries, rng).run(standing, aim, path)
+
+    return bolder(attempt(kept), attempt)
 
 
 def home_of(arm: Arm) -> tuple[Array, str]:
@@ -191,15 +194,15 @@ def _task(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None) 
 
 
 def _goal(
-    arm: Arm,
+    degraded: Degraded,
     goal: ArrayLike | str | None,
     by_hand: bool,
     standing: Array,
-    free: Flags,
     clearance: Clearance | None,
     margin: float,
     path: Path | None,
 ) -> _Goal | None:
+    arm, free = degraded.arm, degraded.moves
     if goal is None:
         if path is None:
             raise InputError("there is neither a goal nor a path; give goal='home', a pose, a configuration, or a path")
@@ -230,8 +233,8 @@ def _goal(
         raise InputError(
             f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"
         )
-    away = np.abs(joint_space.difference(arm, q, standing))
-    lost = np.flatnonzero(~free & (away > SAME))
+    away = np.abs(joint_space.difference(arm, q, np.where(free, np.clip(q, degraded.lo, degraded.hi), standing)))
+    lost = np.flatnonzero(np.where(free, away > 0, away > SAME))
     if not lost.size:
         return _Goal(text, pose, np.where(free, q, standing))
     units = ["m" if arm.prismatic[k] else "rad" for k in lost]
@@ -239,21 +242,20 @@ def _goal(
     return _Goal(text, pose, None, rows)
 
 
-def _trouble(
-    arm: Arm, at: Array, stands: dict[int, float], clearance: Clearance | None, margin: float
-) -> tuple[Ending, str] | None:
+def _trouble(degraded: Degraded, at: Array, clearance: Clearance | None, margin: float) -> tuple[Ending, str] | None:
     """Why the arm may not even start, or None."""
-    for k, value in stands.items():
-        if abs(at[k] - value) > SAME:
-            return Ending.LOCK_ELSEWHERE, (
-                f"{arm.joint_names[k]} is said to be locked at {value:.6g} and is at {at[k]:.6g} {arm.joints[k].unit}; "
-                "give the angle at which it is, or leave the angle out"
-            )
-    for joint, x in zip(arm.joints, at, strict=True):
+    arm, value = degraded.arm, degraded.lo
+    for k in np.flatnonzero(~degraded.moves & (np.abs(at - value) > SAME)):
+        return Ending.LOCK_ELSEWHERE, (
+            f"{arm.joint_names[k]} is said to be locked at {value[k]:.6g} and is at {at[k]:.6g} {arm.joints[k].unit}; "
+            "give the angle at which it is, or leave the angle out"
+        )
+    for joint, x in zip(degraded.limited.joints, at, strict=True):
         if not joint.lower <= x <= joint.upper:
+            reduced = joint.name in degraded.ranges
             return Ending.START_OUTSIDE_LIMITS, (
-                f"{joint.name} is at {x:.6g} {joint.unit}, its limits are {joint.lower:.6g} to {joint.upper:.6g}; if it "
-                "can move there, widen the limits of the arm"
+                f"{joint.name} is at {x:.6g} {joint.unit}, its limits are {'now ' * reduced}{joint.lower:.6g} to "
+                f"{joint.upper:.6g}; if it can move there, widen {'its range' if reduced else 'the limits of the arm'}"
             )
     if clearance is not None and clearance.pair_names and float(clearance.room(at)) < margin:
         own = int(clearance.closest_pair(at)) < len(clearance.pairs)
@@ -389,4 +391,4 @@ class _Search:
             normal = None
         elif rank != 2 or normal is None or rows.linear != "base" or np.abs(linear @ normal).max() > 1e-9:
             return None
-        return out_of_reach(arm, self.space.free, at, pose, rows.m == 6, normal)
+        return out_of_reach(self.space.arm, self.space.free, at, pose, rows.m == 6, normal)

@@ -18,8 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
-from holdfast.failures import Locked, locks_at
+from holdfast.failures import Locked, degraded_at
 from holdfast.files.output import writing
 from holdfast.paths.joint_table import joint_columns, read_joint_table
 from holdfast.result import Result
@@ -135,9 +136,11 @@ def check_waypoints(
     Args:
         arm: The arm.
         q: (K, n) waypoints, rad and m.
-        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it.
+        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it. Or a
+            :class:`holdfast.Degraded`, whose reduced ranges must be kept too.
         clearance: Looked at if given.
-        cell: Objects around the arm, or their file; looked at if given.
+        cell: Objects around the arm, or their file; looked at if given. What the bound calls too close is asked exactly where a
+            library for that is installed.
         margin: m that should be kept; from an object beyond what the cell keeps from it.
 
     Raises:
@@ -147,28 +150,41 @@ def check_waypoints(
     if not len(a) or not np.isfinite(a).all():
         raise InputError("waypoints must be one configuration or more of finite numbers")
     fine = _between(a)
-    beyond = np.maximum(np.maximum(arm.lower - fine, fine - arm.upper).max(axis=0), 0.0)
-    moved = {k: float(np.abs(fine[:, k] - value).max()) for k, value in locks_at(arm, locked, a[0]).items()}
+    degraded = degraded_at(arm, locked, a[0])
+    limits = arm if degraded is None else degraded.limited
+    beyond = np.maximum(np.maximum(limits.lower - fine, fine - limits.upper).max(axis=0), 0.0)
+    locks = {} if degraded is None else degraded.locked
+    moved = {
+        name: float(np.abs(fine[:, arm.joint_index(name)] - value).max()) for name, value in locks.items() if value is not None
+    }
     seen = chosen_clearance(arm, clearance, cell, looks=False)
     least = room = None
     closest = ""
     if seen is not None:
-        parts = [fine[i : i + _CHUNK] for i in range(0, len(fine), _CHUNK)]
-        least = min(float(seen(part).min()) for part in parts)
-        rooms = np.concatenate([seen.room(part) for part in parts])
-        k = int(seen.closest_pair(fine[rooms.argmin()]))
-        room, closest = float(rooms.min()), seen.pair_names[k] if k >= 0 else ""
+        least, room, closest = _nearest(seen, fine)
+        sharp = sharpened(seen, margin) if room < margin else None
+        if sharp is not None:
+            least, room, closest = _nearest(sharp, fine)
     return WaypointCheck(
         q=a,
         poses=arm.forward_kinematics(a),
         looked_at=len(fine),
         beyond_limits={arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
-        locks_moved={arm.joint_names[k]: miss for k, miss in moved.items() if miss > 1e-12},
+        locks_moved={name: miss for name, miss in moved.items() if miss > 1e-12},
         least_clearance=least,
         least_room=room,
         closest=closest,
         margin=margin,
     )
+
+
+def _nearest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
+    """The least clearance and room of configurations (N, n), m, and the pair with the least room."""
+    parts = [q[i : i + _CHUNK] for i in range(0, len(q), _CHUNK)]
+    rooms = np.concatenate([clearance.room(part) for part in parts])
+    k = int(clearance.closest_pair(q[rooms.argmin()]))
+    least = min(float(clearance(part).min()) for part in parts)
+    return least, float(rooms.min()), clearance.pair_names[k] if k >= 0 else ""
 
 
 def _between(q: Array) -> Array:

@@ -15,7 +15,7 @@ from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.errors import InputError
-from holdfast.failures import Locked, read_locks
+from holdfast.failures import Degraded, Locked, read_locks
 from holdfast.notice import says
 from holdfast.simulation.batch import motion_of
 from holdfast.simulation.runs import Runs, Setting
@@ -89,8 +89,9 @@ def simulate(
         q0: (n,) or (N, n) configurations at the start, rad and m.
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
-        locked: Joints that lock where they are in every run, ``{joint: None}`` or the joints alone, by name or index from 0.
-            Or for each run of its own, as an array: (N,) the index of one joint, -1 for none; or (N, n) the time at which
+        locked: Joints that lock where they are in every run, ``{joint: None}`` or the joints alone, by name or index from 0;
+            or a :class:`holdfast.Degraded` of locks alone, where ``q0`` has them. Or for each run of its own, as an array: (N,)
+            the index of one joint, -1 for none; or (N, n) the time at which
             each joint locks, s or cycles, infinite for never.
         cycles: Discrete control cycles in place of continuous time.
         method: ``adaptive`` (DOP853, order 8) or ``rk4`` (classic Runge-Kutta, fixed step).
@@ -116,7 +117,7 @@ def simulate(
     start, single = as_configurations(law.arm, q0)
     poses, rows_wanted = target_poses(law.task, target)
     targets = poses if rows_wanted is None else rows_wanted
-    locks, shared = _locks(law, locked, time)
+    locks, shared = _locks(law, locked, time, start)
     counts = {"q0": len(start), "target": len(targets), "locked": len(locks)}
     rows = max(counts.values()) if min(counts.values()) else 0
     for what, count in counts.items():
@@ -160,7 +161,7 @@ def simulate(
 # ---- input -------------------------------------------------------------------------------------------------------
 
 
-def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike) -> tuple[Array, bool]:
+def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: Array) -> tuple[Array, bool]:
     """When each joint locks (M, n), infinite for never; and whether that is the same for all runs."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
@@ -181,8 +182,9 @@ def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike) -> tuple[Ar
         times[rows, locked[rows]] = 0.0
         return times, False
     joints = read_locks(arm, locked)
+    known = isinstance(locked, Degraded)
     for k, value in joints.items():
-        if value is not None:
+        if value is not None and not (known and (start[:, k] == value).all()):
             name = arm.joint_names[k]
             raise InputError(f"locked has {value:g} for '{name}'; a joint locks where it is: give None, and its value in q0")
     when = real_numbers(time, "time")

@@ -107,6 +107,14 @@ class Tracer:
             q = np.where(on[:, None], q, out[:, :n])
         return q, on & np.isfinite(out).all(axis=1), out[:, n + 1 :].reshape(-1, self.free, n)
 
+    def newton(self, q: Array, p: Array, r: Array) -> tuple[Array, Array, Array]:
+        """One least-norm step (N, n) from q (N, n) towards positions p (N, 3) and rotations r (N, 3, 3), the error (N,) that q
+        has, in units of the arm's own, and the first null vector (N, n) at q.
+        """
+        n = self.arm.n
+        out = self._step.rows(q, p, r)
+        return out[:, :n] - q, out[:, n], out[:, n + 1 :].reshape(-1, self.free, n)[:, 0]
+
     # ---- curves ----------------------------------------------------------------------------------------------------
 
     def curves(

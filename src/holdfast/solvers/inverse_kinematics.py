@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -227,21 +227,22 @@ class InverseKinematics:
         tolerance: float,
         accept: Accept | None = None,
     ) -> Reach:
-        """As :meth:`solve` with joint ``locked[i]`` of row i locked at ``angles[i]``; joint values are not wrapped."""
-        rows = np.arange(len(poses))
+        """As :meth:`solve` with joint, or joints, ``locked[i]`` of row i locked at ``angles[i]``; values are not wrapped."""
+        locked, angles = locked.reshape(len(poses), -1), angles.reshape(len(poses), -1)
+        rows = np.arange(len(poses))[:, None]
         free = np.ones((len(poses), self.arm.n))
         free[rows, locked] = 0.0
         parameters = np.concatenate([_parameters(poses), free], axis=1)
-        finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles)
+        finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
 
         def lock(start: Array, chosen: NDArray[np.int64]) -> Array:
-            start[np.arange(chosen.size), locked[chosen]] = angles[chosen]
+            start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
             return start
 
         found = self._search(
             self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock, accept=accept
         )
-        kept = found.q[rows, locked] == angles
+        kept = (found.q[rows, locked] == angles).all(axis=1)
         kept &= True if accept is None else accept(found.q)
         position_error, rotation_error = self.errors(found.q, poses)
         reached = self._reached(found.q, position_error, rotation_error, tolerance) & kept
@@ -299,6 +300,7 @@ class InverseKinematics:
         prepare: Callable[[Array, NDArray[np.int64]], Array],
         first: Array | None = None,
         accept: Accept | None = None,
+        steps: int = STEPS,
     ) -> _Found:
         """Starts until each of the chosen rows is done; several starts of a row run side by side once few rows are left.
 
@@ -322,7 +324,7 @@ class InverseKinematics:
                 start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
                 if k == 0 and first is not None:
                     start = first[left]
-                run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
+                run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, steps)
                 ended, residuals = run.done, run.residual
                 if accept is not None:
                     at = np.flatnonzero(ended)
@@ -365,6 +367,7 @@ class InverseKinematics:
         tolerance: float,
         first: Array | None = None,
         accept: Accept | None = None,
+        steps: int = STEPS,
     ) -> Reach:
         """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses.
 
@@ -375,11 +378,14 @@ class InverseKinematics:
             tolerance: Largest pose error, rad, and lengths in units of the arm's own.
             first: (N, n) the first start of each, if it is not a random one.
             accept: Which configurations (K, n) that meet their poses count, (K,); all of them if not given.
+            steps: At most so many from each start.
         """
         parameters = _parameters(poses)
         finite = np.isfinite(parameters).all(axis=1)
         rows = np.flatnonzero(finite)
-        found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept)
+        found = self._search(
+            self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept, steps
+        )
         q, used = found.q, found.restarts
         q = joint_space.wrapped(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
@@ -391,29 +397,44 @@ class InverseKinematics:
         return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)
 
 
-def damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
-    """The next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error."""
+def damped_step(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX] | None = None) -> tuple[SX, SX]:
+    """The next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error.
+
+    Within the limits of the arm, or within ``limits``, two symbols (n,).
+    """
     n = arm.n
+    bounds = _bounds(arm) if limits is None else [(limits[0][k], limits[1][k]) for k in range(n)]
     size = ca.sumsqr(e)
     pull = [ca.dot(j[:, k], e) for k in range(n)]
     active = []
     for k in range(n):
         # CasADi has no short way to say "at the lower limit and pulled below it".
-        low = ca.logic_and(q[k] <= arm.lower[k], pull[k] < 0) if kinematics.limited(arm.lower[k]) else ca.SX(0)
-        high = ca.logic_and(q[k] >= arm.upper[k], pull[k] > 0) if kinematics.limited(arm.upper[k]) else ca.SX(0)
+        lower, upper = bounds[k]
+        low = ca.SX(0) if lower is None else ca.logic_and(q[k] <= lower, pull[k] < 0)
+        high = ca.SX(0) if upper is None else ca.logic_and(q[k] >= upper, pull[k] > 0)
         active.append(ca.if_else(ca.logic_or(low, high), 0.0, 1.0))
     masked = ca.horzcat(*[j[:, k] * active[k] for k in range(n)])
     step = damped_least_norm(masked, e, 1e-3 * size + 1e-12)
-    return clipped(arm, [q[k] + step[k] for k in range(n)]), size
+    return _clipped(bounds, [q[k] + step[k] for k in range(n)]), size
 
 
 def clipped(arm: Arm, q: Sequence[SX]) -> SX:
     """Joint values (n,) brought back to the limits."""
+    return _clipped(_bounds(arm), q)
+
+
+def _bounds(arm: Arm) -> list[tuple[Any, Any]]:
+    """The limits of each joint, None where there is none."""
+    ends = zip(arm.lower, arm.upper, strict=True)
+    return [(x if kinematics.limited(x) else None, y if kinematics.limited(y) else None) for x, y in ends]
+
+
+def _clipped(bounds: Sequence[tuple[Any, Any]], q: Sequence[SX]) -> SX:
     inside = []
-    for x, low, high in zip(q, arm.lower, arm.upper, strict=True):
-        if kinematics.limited(low):
+    for x, (low, high) in zip(q, bounds, strict=True):
+        if low is not None:
             x = ca.if_else(x < low, low, x)
-        if kinematics.limited(high):
+        if high is not None:
             x = ca.if_else(x > high, high, x)
         inside.append(x)
     return ca.vertcat(*inside)

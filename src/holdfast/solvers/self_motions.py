@@ -239,22 +239,22 @@ def fibres(
     kept = chosen_clearance(arm, clearance, cell, looks=False)
     clear = None if kept is None or not kept.pair_names else Clear.of(kept, margin)
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
-    tracer = _tracer(arm, tuple(map(tuple, rows.rows.tolist())), rows.frame)
-    owner, q = tracer.seeds(targets, np.flatnonzero(finite), seed, starts)
+    engine = tracer(arm, rows)
+    owner, q = engine.seeds(targets, np.flatnonzero(finite), seed, starts)
     components: list[list[Component]] = [[] for _ in targets]
     if redundancy == 1:
-        tracer.curves(targets, owner, q, spacing, components)
+        engine.curves(targets, owner, q, spacing, components)
         if follow:
-            tracer.passed_on(targets, spacing, components)
+            engine.passed_on(targets, spacing, components)
         there = [bool(found) for found in components]
         if clear is not None:
             components = [
-                [part for c in found for part in clear.parts(tracer, t, c)]
+                [part for c in found for part in clear.parts(engine, t, c)]
                 for t, found in zip(targets, components, strict=True)
             ]
         points = [np.concatenate([c.q for c in found]) if found else np.empty((0, arm.n)) for found in components]
     else:
-        points = [tracer.sample(t, q[owner == i], spacing) for i, t in enumerate(each("poses", targets, whole=True))]
+        points = [engine.sample(t, q[owner == i], spacing) for i, t in enumerate(each("poses", targets, whole=True))]
         there = [bool(len(p)) for p in points]
         points = points if clear is None else [p[clear.keeps(p)] for p in points]
     found_any = [
@@ -266,6 +266,11 @@ def fibres(
         SelfMotion(pose=t, components=tuple(c), q=p, status=s, **common)  # type: ignore[arg-type]
         for t, c, p, s in zip(targets, components, points, status, strict=True)
     ]
+
+
+def tracer(arm: Arm, task: Task) -> Tracer:
+    """The predictor and corrector of an arm and task, compiled once."""
+    return _tracer(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
 def _joined(spans: list[tuple[float, float]], circle: bool) -> list[tuple[float, float]]:

@@ -11,13 +11,15 @@ from __future__ import annotations
 
 from importlib.metadata import version
 from importlib.util import find_spec
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.clearance.exact.bodies import Body
 from holdfast.errors import HoldfastError
+
+if TYPE_CHECKING:
+    from holdfast.clearance.exact.bodies import Body
 
 Array = NDArray[np.float64]
 
@@ -64,6 +66,11 @@ def for_distances() -> Engine:
         HoldfastError: None is installed.
     """
     return Coal() if find_spec("coal") else Fcl() if find_spec("fcl") else _missing()
+
+
+def installed() -> bool:
+    """Whether any of them is."""
+    return bool(find_spec("fcl") or find_spec("coal"))
 
 
 def _missing() -> Engine:

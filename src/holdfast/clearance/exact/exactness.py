@@ -72,6 +72,22 @@ class Exactness:
             found[left] = ~contacts.any(q[left], self._bounds(q[left], near=False))
         return found
 
+    def touches(self, q: Array, pair: int) -> Truths:
+        """(N,) whether the bodies that one pair of the clearance is about touch.
+
+        Args:
+            q: (N, n) finite.
+            pair: Position in ``pair_names`` of the clearance.
+
+        Raises:
+            HoldfastError: No library for it is installed.
+        """
+        contacts, own = self._signs, len(self._pairs)
+        at = len(self._columns) + pair - own if pair >= own else list(self._columns).index(self._groups(self._pairs[pair]))
+        bounds = np.full((len(q), len(self._columns) + (0 if self.obstacles is None else len(self.obstacles.pairs))), np.inf)
+        bounds[:, at] = -np.inf
+        return contacts.any(q, bounds)
+
     def distances(self, q: Array) -> Array:
         """(N,) the smallest distance, m; 0 where anything touches, NaN for rows that are not finite.
 
@@ -94,6 +110,11 @@ class Exactness:
         """
         engine = self._distances.engine
         return f"{engine.name}, to {1e3 * engine.within:g} mm"
+
+    @property
+    def within(self) -> float:
+        """How right the distances are, m."""
+        return self._distances.engine.within
 
     @cached_property
     def _signs(self) -> Meetings:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -16,7 +16,7 @@ from holdfast.cli.clearance import (
     MarginOption,
     RadiusOption,
     check_clearance,
-    read_clearance,
+    read_kept,
 )
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
@@ -38,11 +38,6 @@ from holdfast.cli.options import (
 from holdfast.errors import InputError
 from holdfast.grammar import TASKS
 from holdfast.present.results import printed, said
-
-if TYPE_CHECKING:
-    from holdfast.arm.model import Arm
-    from holdfast.clearance.clearance import Clearance
-    from holdfast.paths.timed_path import TimedPath
 
 
 def command(
@@ -131,13 +126,15 @@ def command(
 
     Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
     """
+    from holdfast.arm.task import task_of_path
+
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
     check_clearance(clearance, capsules, radius, margin, cell)
     model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     timed = hf.paths.TimedPath.load(path, duration)
     check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
-    chosen = read_task(task or _task(timed, model), arm, model)
+    chosen = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *wish, chosen)  # the other way round already, if that is meant
     aim: dict[str, Any] = {"minimise" if objective.better == "smaller" else "maximise": objective}
@@ -156,7 +153,7 @@ def command(
         seed=seed,
         best=best,
         torque_bound=torque_bound,
-        clearance=_kept(model, clearance, capsules, radius, margin, cell),
+        clearance=read_kept(model, clearance, capsules, radius, margin, cell),
         margin=margin or 0.0,
     )
     files = [] if csv is None else [result.to_csv(csv)]
@@ -165,21 +162,3 @@ def command(
     if out is not None:
         files += result.save(out, command=said())
     printed(result, json_, files)
-
-
-def _kept(
-    arm: Arm, wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, cell: Path | None
-) -> Clearance | None:
-    """What the motion keeps clear of: nothing unless an option asks for it."""
-    if cell is None and not wanted and capsules is None and radius is None and margin is None:
-        return None
-    return read_clearance(arm, wanted, capsules, radius, margin, chooses=True, cell=cell)
-
-
-def _task(path: TimedPath, arm: Arm) -> str:
-    from holdfast.arm.task import plane_normal
-
-    flat = plane_normal(arm) is not None
-    if path.path.oriented:
-        return "planar-pose" if flat else "pose"
-    return "planar" if flat else "position"

@@ -14,6 +14,7 @@ from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
     BaseOption,
+    FailureOption,
     HoldOption,
     JsonOption,
     TipOption,
@@ -45,6 +46,7 @@ def command(
             show_default=False,
         ),
     ] = None,
+    failure: FailureOption = None,
     at: Annotated[
         str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
     ] = None,
@@ -100,7 +102,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """A joint has locked: report what is left of the workspace, whether the task can be finished, and the shortest route.
+    """A joint has locked or moves less: report what is left of the workspace, whether the task can be finished, and how.
 
     Exit code 0 only if everything that was asked for is met; 3 if a row, a lock, a limit or the goal had to be dropped.
 
@@ -110,7 +112,7 @@ def command(
     model = read_arm(arm, base, tip, hold)
     shape = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes)
     if check is not None:
-        locked = read_locks(model, lock, degrees, alone=True)
+        locked = read_locks(model, lock, degrees, alone=True, failure=failure) if lock or failure else ()
         replay = hf.recovery.check_waypoints(
             model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0
         )
@@ -120,8 +122,6 @@ def command(
         return
     if at is None:
         raise InputError("give --at, the current joint values, for example --at " + ",".join("0" * model.n))
-    if not lock:
-        raise InputError(f"give --lock, the joint that is locked, for example --lock {model.joint_names[0]}")
     aim, positions = _goal(model, goal or ("home" if path is None else ""), degrees)
     chosen = None if task is None else read_task(task, arm, model)
     hand_path = None if path is None else hf.paths.Path.load(path)
@@ -129,7 +129,7 @@ def command(
         check_unit_of_places(model, hand_path.pose(np.linspace(0, 1, 21))[:, :3, 3], "--path")
     result = hf.recover(
         model,
-        read_locks(model, lock, degrees, alone=True),
+        read_locks(model, lock, degrees, alone=True, failure=failure),
         read_configuration(model, at, degrees, "--at"),
         goal=aim,
         task=_position_task(model, chosen) if positions else chosen,

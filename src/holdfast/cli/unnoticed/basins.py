@@ -11,6 +11,7 @@ from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    FailureOption,
     HoldOption,
     JsonOption,
     OutOption,
@@ -27,7 +28,10 @@ from holdfast.present.results import drawn, printed
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    lock: Annotated[list[str], typer.Option("--lock", help="JOINT=VALUE, rad or m; may be given again.", show_default=False)],
+    lock: Annotated[
+        list[str] | None, typer.Option("--lock", help="JOINT=VALUE, rad or m; may be given again.", show_default=False)
+    ] = None,
+    failure: FailureOption = None,
     starts: Annotated[int, typer.Option("--starts", help="How many random starts.")] = 2000,
     grid: Annotated[
         int | None,
@@ -51,6 +55,6 @@ def command(
     Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """
     made = law_of(law, arm, task, base, tip, hold)
-    locked = read_locks(made.arm, lock, degrees)
+    locked = read_locks(made.arm, lock, degrees, failure=failure)
     result = hf.basins(made, read_target(made.arm, made.task, target), locked, starts=starts, grid=grid, seed=seed)
     printed(result, json_, drawn(result, plot, out))

@@ -13,12 +13,14 @@ from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOpt
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    FailureOption,
     HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
     read_configuration,
     read_joint,
+    read_locks,
     read_numbers,
     read_target,
 )
@@ -44,6 +46,7 @@ def command(
             show_default=False,
         ),
     ] = None,
+    failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     gain: GainOption = 1.0,
@@ -86,7 +89,8 @@ def command(
     touched = read_contact_shape(made.arm, capsules, radius, cell)
     if stop_at_contact and touched is None:
         raise InputError("--stop-at-contact has nothing to stop at; add --cell")
-    alike: dict[str, Any] = {"locked": joints, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
+    locked = read_locks(made.arm, lock, degrees, failure=failure) if failure else joints
+    alike: dict[str, Any] = {"locked": locked, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
     runs = hf.simulate(made, q0, goal, cycles=cycles, stop_at_contact=stop_at_contact, **alike)
     result: Result = runs
     if physics:

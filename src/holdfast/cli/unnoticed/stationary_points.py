@@ -11,6 +11,7 @@ from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    FailureOption,
     HoldOption,
     JsonOption,
     OutOption,
@@ -32,13 +33,14 @@ def command(
     arm: ArmArgument,
     target: TargetOption,
     lock: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(
             "--lock",
             help="JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values.",
             show_default=False,
         ),
-    ],
+    ] = None,
+    failure: FailureOption = None,
     degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
@@ -56,8 +58,8 @@ def command(
     """
     made = law_of(law, arm, task, base, tip, hold)
     goal = read_target(made.arm, made.task, target)
-    locked = read_locks(made.arm, lock, degrees, alone=True)
-    if plot is not None and None not in locked.values():
+    locked = read_locks(made.arm, lock, degrees, alone=True, failure=failure)
+    if plot is not None and all("=" in text for text in lock or []):
         raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
     result: Result = hf.stationary_points(made, goal, locked, seed=seed)
     printed(result, json_, drawn(result, plot, out))

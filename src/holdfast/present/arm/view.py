@@ -15,6 +15,7 @@ from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arms.spec import default_task
 from holdfast.cell.cell import Cell
 from holdfast.errors import InputError
+from holdfast.failures import Degraded
 from holdfast.files.html import Html
 from holdfast.indices.lost_directions import losses
 from holdfast.present.arm.body import LINK, Part, stick_parts, stretched
@@ -38,7 +39,7 @@ def scene(
     q: ArrayLike | None = None,
     *,
     labels: Sequence[str] = (),
-    locked: Sequence[str | int] | Mapping[Any, float] = (),
+    locked: Sequence[str | int] | Mapping[Any, float] | Degraded = (),
     free: Sequence[str | int] = (),
     task: str | Task | None = None,
     lost: bool = True,
@@ -60,7 +61,8 @@ def scene(
         q: (n,) rad and m; (A, n) several, the first solid and the others see-through; with ``time`` a motion (F, n), or
             (A, F, n) several. :func:`holdfast.arm.generic_configuration` if not given.
         labels: (A,) what each of several is.
-        locked: Joints, by name or index from 0, that are marked as locked; in a motion also ``{joint: s from which}``.
+        locked: Joints, by name or index from 0, that are marked as locked, or a :class:`holdfast.Degraded`; in a motion also
+            ``{joint: s from which}``.
         free: Joints that are marked as swinging freely.
         task: Rows of the pose in which directions are lost; the arm's own if not given.
         lost: Mark the directions in which the locked joints take speed from the first arm, where nothing moves.
@@ -174,8 +176,10 @@ def _motions(arm: Arm, q: ArrayLike, moving: bool) -> Array:
     return np.atleast_2d(a)[:, None]
 
 
-def _since(arm: Arm, locked: Sequence[str | int] | Mapping[Any, float]) -> list[float | None]:
+def _since(arm: Arm, locked: Sequence[str | int] | Mapping[Any, float] | Degraded) -> list[float | None]:
     """For each joint the time from which it is locked, s; None: it is not."""
+    if isinstance(locked, Degraded):
+        locked = list(locked.locked)
     when = dict(locked) if isinstance(locked, Mapping) else dict.fromkeys(locked, 0.0)
     out: list[float | None] = [None] * arm.n
     for joint, t in when.items():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from holdfast.clearance.exact.sharper import Sharper
 from holdfast.words import counted
 
 if TYPE_CHECKING:
@@ -24,8 +25,12 @@ def shape_summary(clearance: Clearance, margin: float) -> dict[str, Any]:
         "margin_m": margin,
         "pairs_checked": clearance.pair_names,
         "pairs_not_checked": {p.name: p.reason for p in clearance.ignored},
-        "cell": None if clearance.cell is None else cell_summary(clearance.cell),
+        "cell": None if clearance.cell is None else cell_summary(clearance.cell) | _exact(clearance),
     }
+
+
+def _exact(clearance: Clearance) -> dict[str, Any]:
+    return {"distances": "exact", "by": clearance.exact_by} if isinstance(clearance, Sharper) else {}
 
 
 def cell_summary(cell: Cell) -> dict[str, Any]:
@@ -39,13 +44,14 @@ def cell_summary(cell: Cell) -> dict[str, Any]:
     }
 
 
-def cell_text(cell: Cell) -> str:
+def cell_text(cell: Cell, distances: str = "distances from it are lower bounds") -> str:
     """What is around the arm, for people."""
-    return f"cell '{cell.name}' with {counted(len(cell), 'object')} ({cell.digest[:12]}), distances from it are lower bounds"
+    return f"cell '{cell.name}' with {counted(len(cell), 'object')} ({cell.digest[:12]}), {distances}"
 
 
 def shape_text(clearance: Clearance, margin: float) -> str:
     """What the arm and its cell are taken to be, in brackets after a sentence."""
-    around = "" if clearance.cell is None else f"; {cell_text(clearance.cell)}"
+    exact = [f"small distances from it are exact ({clearance.exact_by})"] if isinstance(clearance, Sharper) else []
+    around = "" if clearance.cell is None else f"; {cell_text(clearance.cell, *exact)}"
     wanted = f"; margin {margin:g} m" if margin else ""
     return f"capsules: {clearance.capsules.describe(clearance.arm)}{around}{wanted}"

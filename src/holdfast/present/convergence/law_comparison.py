@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import csv
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from holdfast.convergence.law_comparison import HEALTHY, LawComparison
 from holdfast.files.output import made, writing
@@ -33,22 +34,20 @@ from holdfast.report.page import Block, Callout, Cell, Page, Picture, Section, T
 from holdfast.simulation.runs import Outcome
 from holdfast.words import counted, fixed, number, percent
 
+if TYPE_CHECKING:
+    from holdfast.present.results import Drawings
 
-def figures(c: LawComparison) -> dict[str, Figure]:
+
+def drawings(c: LawComparison) -> Drawings:
     """``outcomes``; of several laws ``gains`` over the first; of failures ``errors``; and ``healthy``, what a law costs."""
-    found = {"outcomes": outcome_figure(c)}
+    found: Drawings = {"outcomes": partial(outcome_figure, c)}
     if pairs(c):
-        found["gains"] = gains_figure(c)
+        found["gains"] = partial(gains_figure, c)
     if c.joints:
-        found["errors"] = error_figure(c)
+        found["errors"] = partial(error_figure, c)
     if c.comparable.any():
-        found["healthy"] = healthy_figure(c)
+        found["healthy"] = partial(healthy_figure, c)
     return found
-
-
-def main_figure(c: LawComparison) -> dict[str, Figure]:
-    """How the motions ended."""
-    return {"outcomes": outcome_figure(c)}
 
 
 @says("drawing the report")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from holdfast.words import capitalised, counted, percent
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from holdfast.present.results import Drawings
     from holdfast.report.outcomes import Stack
 
 Array = NDArray[np.float64]
@@ -206,7 +208,7 @@ def _bars(title: str, m: ConvergenceMap) -> Stack:
     )
 
 
-def figures(m: ConvergenceMap) -> dict[str, Figure]:
+def drawings(m: ConvergenceMap) -> Drawings:
     """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
     rows = {"converges": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
     rows = {name: v[:, :-1] for name, v in rows.items()}
@@ -221,12 +223,7 @@ def figures(m: ConvergenceMap) -> dict[str, Figure]:
         f"{_told(m)}\nwhere the {m.over} are",
         target[0] if alone else None,
     )
-    return {"outcomes": outcomes_figure([m]), **{f"map{view}": figure for view, figure in maps.items()}}
-
-
-def main_figure(m: ConvergenceMap) -> dict[str, Figure]:
-    """How the motions ended."""
-    return {"outcomes": outcomes_figure([m])}
+    return {"outcomes": partial(outcomes_figure, [m]), **{f"map{view}": draw for view, draw in maps.items()}}
 
 
 def _told(m: ConvergenceMap, laws: int = 1) -> str:

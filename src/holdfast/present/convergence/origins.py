@@ -19,7 +19,7 @@ from holdfast.present.story import Story
 from holdfast.words import capitalised, counted
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from holdfast.present.results import Drawings
 
 Array = NDArray[np.float64]
 
@@ -127,7 +127,7 @@ def save(w: Workspace, folder: Path, command: str = "") -> list[Path]:
     return files + results.save(w, folder, command, dpi=130)
 
 
-def figures(w: Workspace) -> dict[str, Figure]:
+def drawings(w: Workspace) -> Drawings:
     """The maps of Fig. 10 by file name: ``reach``, and ``finish`` if failures were looked at.
 
     For tasks that are not in a plane ``reach-top`` and ``reach-side``, seen along z and along y, and ``finish`` likewise.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,12 +16,11 @@ from holdfast.present.printing import Rows, alike, number
 from holdfast.words import percent
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from holdfast.arm.task import Task
     from holdfast.control.law import Law
     from holdfast.convergence.origins import Workspace
     from holdfast.convergence.targets import TargetMeasures
+    from holdfast.present.results import Drawings
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ def panels(
     caption: str,
     mark: Array | None = None,
     gathered: bool = True,
-) -> dict[str, Figure]:
+) -> Drawings:
     """A figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and y.
 
     ``rows`` are by title, (P, C) percentages, NaN where there are none; ``columns`` (C,) titles; ``label`` is of the colour
@@ -47,7 +47,7 @@ def panels(
     from holdfast.report.places import Plane, binned, place_maps
     from holdfast.report.views import View
 
-    found = {}
+    found: Drawings = {}
     views = {"": None} if in_a_plane(task) else _VIEWS
     for name, axes in views.items():
         right, up = task.rows[:2, :3] if axes is None else np.eye(3)[list(axes)]
@@ -61,7 +61,7 @@ def panels(
             plane = replace(first, labels=view.names, mark=where, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
             told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        found[name] = place_maps(plane, shown, columns, label=label, caption=caption + told)
+        found[name] = partial(place_maps, plane, shown, columns, label=label, caption=caption + told)
     return found
 
 
@@ -83,7 +83,7 @@ def with_interval(value: float, low: float, high: float) -> str:
 
 def measure_maps(
     law: Law, places: Places, measures: Mapping[str, Array], about: str, failures: str, mark: Array | None = None
-) -> dict[str, Figure]:
+) -> Drawings:
     """Maps of R100, Ravg, Rsens and, where failures were looked at, of F100, Favg, Fsens, by name: ``reach``, ``finish-top``.
 
     ``failures`` says how many were simulated, empty if none; ``mark`` (3,) is the target, to be shown.
@@ -102,11 +102,11 @@ def measure_maps(
             "percent",
             f"F: fraction of that part from which the failed arm reaches the target; {failures}",
         )
-    found = {}
+    found: Drawings = {}
     for word, (names, label, second) in told.items():
         rows = {name: measures[name] for name in names}
-        for view, figure in panels(law.task, places, rows, columns, label, f"{about}\n{second}", mark, False).items():
-            found[word + view] = figure
+        for view, draw in panels(law.task, places, rows, columns, label, f"{about}\n{second}", mark, False).items():
+            found[word + view] = draw
     return found
 
 

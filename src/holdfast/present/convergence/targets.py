@@ -18,7 +18,7 @@ from holdfast.present.story import Story
 from holdfast.words import capitalised, counted, percent
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from holdfast.present.results import Drawings
 
 
 def to_dict(t: TargetMeasures) -> dict[str, Any]:
@@ -69,7 +69,7 @@ def story(t: TargetMeasures) -> Story:
     )
 
 
-def figures(t: TargetMeasures) -> dict[str, Figure]:
+def drawings(t: TargetMeasures) -> Drawings:
     """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
     about = (
         f"{t.law.arm.name}, {t.law.name}: each place is a target, its value the mean over {len(t.starts)} starts; "

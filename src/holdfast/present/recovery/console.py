@@ -39,6 +39,7 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         **recovery.arm.entry(),
         "fingerprint": recovery.arm.fingerprint,
         "locked": recovery.locked,
+        "degraded": recovery.degraded.to_dict(),
         "goal": recovery.goal,
         "task": recovery.task.name,
         "ok": recovery.ok,
@@ -97,10 +98,8 @@ def story(recovery: Recovery) -> Story:
 
     asked, _, *rest = recovery.describe()
     arm, ending, left = recovery.arm, recovery.ending, recovery.left
-    joints = [(name, value, arm.joints[arm.joint_index(name)].shown) for name, value in recovery.locked.items()]
-    locked = " and ".join(f"{name} locked at {factor * value:.4g} {unit}" for name, value, (factor, unit) in joints)
     moves, length = len(recovery.q) > 1, f"{number(recovery.length)} {recovery.unit}"
-    answer = f"With {locked} {_ANSWERS[ending]}"
+    answer = f"With {recovery.degraded.describe()} {_ANSWERS[ending]}"
     if recovery.given_up is not None:
         answer += f": {recovery.given_up}"
     if moves:
@@ -126,14 +125,14 @@ def story(recovery: Recovery) -> Story:
         [
             joint.name,
             *(f"{number(joint.shown[0] * x)} {joint.shown[1]}" for x in (q[0, k], q[-1, k])),
-            "locked" * (joint.name in recovery.locked),
+            recovery.degraded.mark(joint.name),
         ]
         for k, joint in enumerate(arm.joints)
     ]
     if len(recovery.q):
         rest += [f"independent replay: {line}" for line in checks(recovery)]
     return Story(
-        f"{arm.name} after a known lock",
+        f"{arm.name} after a known failure",
         answer,
         about=capitalised(asked),
         facts=facts,
@@ -225,7 +224,7 @@ def show(recovery: Recovery, out: Console) -> None:
     table = Grid("joint", "start", "end", "")
     factors, units = zip(*(joint.shown for joint in recovery.arm.joints), strict=True)
     for name, *cells in zip(recovery.arm.joint_names, *(alike(factors * x, units) for x in recovery.q[[0, -1]]), strict=True):
-        table.add_row(escape(name), *cells, "locked" if name in recovery.locked else "")
+        table.add_row(escape(name), *cells, recovery.degraded.mark(name))
     out.print(table)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
@@ -10,8 +11,7 @@ from holdfast.present.story import Story
 from holdfast.words import percent
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from holdfast.present.results import Drawings
     from holdfast.recovery.remainder import WhatIsLeft
 FIGURES = {
     "left": (
@@ -47,18 +47,18 @@ def key_table(left: WhatIsLeft) -> Rows:
 
 def story(left: WhatIsLeft) -> Story:
     """How much of the workspace is left."""
-    title = f"What is left of the workspace once {' and '.join(left.joints)} has locked"
+    title = f"What is left of the workspace with {left.degraded.describe()}"
     told = [f"{line.removesuffix('.')}." for line in left.describe()]
-    found, name = left.left, " and ".join(left.joints)
+    found, failed = left.left, left.degraded.describe()
     if found is None:
         return Story(title, told[0], about=left.region)
     answer = (
-        f"Once {name} has locked, {percent(found.value)} of what the healthy arm reaches is "
+        f"With {failed}, {percent(found.value)} of what the healthy arm reaches is "
         f"still reached ({percent(found.low)} to {percent(found.high)}, 95 %)."
     )
     if not found.value:
         answer = (
-            f"Once {name} has locked, none of the {int(left.healthy.sum()):,} targets that the "
+            f"With {failed}, none of the {int(left.healthy.sum()):,} targets that the "
             f"healthy arm reaches was reached: at most {percent(found.high)} of them are left, 95 %."
         )
     facts = [(percent(found.value), "of what the healthy arm reaches is left")] if found.value else []
@@ -82,12 +82,12 @@ def next_steps(left: WhatIsLeft, name: str) -> list[str]:
     return [f'{name}.report("left.html")']
 
 
-def figures(left: WhatIsLeft) -> dict[str, Figure]:
+def drawings(left: WhatIsLeft) -> Drawings:
     """Maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm reaches none."""
     from holdfast.present.assessment.sections.survival import before_and_after_figure
     from holdfast.report.views import SIDE, sides
 
     if not left.healthy.any():
         return {}
-    view = (sides(left.position) or [SIDE])[0]
-    return {"left": before_and_after_figure(left.position, left.healthy, left.locked, view, ", ".join(left.joints))}
+    view, failed = (sides(left.position) or [SIDE])[0], left.degraded.describe()
+    return {"left": partial(before_and_after_figure, left.position, left.healthy, left.locked, view, failed)}

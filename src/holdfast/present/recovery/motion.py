@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view,
 from holdfast.report.views import SIDE, sides
 
 if TYPE_CHECKING:
+    from holdfast.present.results import Drawings
     from holdfast.recovery.recovery import Recovery
 
 Array = NDArray[np.float64]
@@ -26,15 +28,16 @@ _DOTS = 160  # of the tool's path
 _BETWEEN = 4  # ghosts of the arm on its way
 
 
-def figures(recovery: Recovery) -> dict[str, Figure]:
+def drawings(recovery: Recovery) -> Drawings:
     """The arm on its way, from the side and from above, and maps of what is left of the workspace, if that was asked for."""
-    return {"motion": _motion(recovery), **({} if recovery.left is None else recovery.left.figures())}
+    left: Drawings = {} if recovery.left is None else recovery.left._presented("drawings")
+    return {"motion": partial(_motion, recovery), **left}
 
 
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
     """recovery.json, motion.png, waypoints.csv if there is a motion, left.png if that was asked for, and report.html."""
     (file,) = put(folder, {"recovery.json": json.dumps(recovery.to_dict(), indent=2) + "\n"})
-    drawn = figures(recovery)
+    drawn = recovery.figures()
     motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in drawn.items()]
     waypoints = [recovery.to_csv(folder / "waypoints.csv")] if len(recovery.q) else []
     return [file, motion, *waypoints, *left, results.write(recovery, folder / "report.html", command, drawn)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from holdfast.arm.machine import Joint
+    from holdfast.present.results import Drawings
     from holdfast.solvers.self_motions import SelfMotion
 
 _CURVES = 6  # the longest ones are drawn
@@ -220,19 +222,20 @@ def _short(value: float) -> str:
     return f"{value:.2f}" if abs(value) >= 0.005 else "0.00"
 
 
-def figures(motion: SelfMotion) -> dict[str, Figure]:
+def drawings(motion: SelfMotion) -> Drawings:
     """Joint values along the curves with where each joint may lock, and the arm in a few of the configurations."""
     from holdfast.reach.bounds import joint_bounds
 
     if motion.bounds is not None or (motion.clearance is not None and motion.redundancy > 1):
         return main_figure(motion)
     kept = motion.clearance is not None
-    return {"self-motion": _figure(motion, motion.arcs() if kept else joint_bounds(motion.arm, motion.pose, motion.task))}
+    arcs = motion.arcs() if kept else joint_bounds(motion.arm, motion.pose, motion.task)
+    return {"self-motion": partial(_figure, motion, arcs)}
 
 
-def main_figure(motion: SelfMotion) -> dict[str, Figure]:
+def main_figure(motion: SelfMotion) -> Drawings:
     """The same, and where each joint may lock only if that is known: looking for it takes longer than all the rest."""
-    return {"self-motion": _figure(motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
+    return {"self-motion": partial(_figure, motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
 
 
 def _figure(motion: SelfMotion, arcs: Sequence[Sequence[tuple[float, float]]]) -> Figure:

@@ -98,7 +98,7 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
     left = f.a.columns["survives"][:][rows.number, joint] == 1
     healthy = rows.reached if f.a.clear is None else f.a.columns["clear"][:][rows.number] == 1
     name = f.a.arm.joint_names[joint]
-    figure = before_and_after_figure(rows.position, healthy, left, view, name, rows.weight)
+    figure = before_and_after_figure(rows.position, healthy, left, view, f"{name} locked", rows.weight)
     total = len(left)
     text = (
         f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
@@ -111,8 +111,8 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
 
 
 def before_and_after_figure(
-    position: Array, healthy: NDArray[np.bool_], locked: NDArray[np.bool_], view: View, joint: str, weights: Array | None = None
+    position: Array, healthy: NDArray[np.bool_], locked: NDArray[np.bool_], view: View, after: str, weights: Array | None = None
 ) -> Figure:
-    """Maps of the fraction of poses (N, 3), m, reached (N,) before and after a lock, by weight (N,) if there is one."""
-    panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
+    """Maps of the fraction of poses (N, 3), m, reached (N,) before and after a failure, by weight (N,) if there is one."""
+    panels = [("Healthy", healthy), (figures.plain(after, 37), locked)]
     return maps.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)

@@ -1,4 +1,4 @@
-"""Failure modes: which joints may fail, and which are locked.
+"""Failure modes: which joints may fail, each alone or several together.
 
 A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
 is a locked joint as well.
@@ -6,14 +6,12 @@ is a locked joint as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import real_numbers
 from holdfast.errors import InputError, TaskError
 from holdfast.grammar import FAILURES, TASKS
 
@@ -22,13 +20,6 @@ if TYPE_CHECKING:
 
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
-
-# {joint: value}, rad or m; {joint: None}, or the joints alone, for where they are. Joints by name or index from 0.
-LockedAt = Mapping[str, float] | Mapping[int, float] | Mapping[str | int, float]
-LockedValues = Mapping[str, ArrayLike] | Mapping[int, ArrayLike] | Mapping[str | int, ArrayLike]  # (N,) of each joint
-LockedAnywhere = str | int | Sequence[str | int] | Mapping[str, None] | Mapping[int, None] | Mapping[str | int, None]
-_Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str | int, float | None]
-Locked = str | int | Sequence[str | int] | _Mapping
 
 _MOST = 5000
 
@@ -89,52 +80,6 @@ def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None
 def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
     """Names for people and files: joint names, joined by ``+``."""
     return ["+".join(arm.joint_names[k] for k in s) for s in sets]
-
-
-def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
-    """The locked joints by index, as given, each with its value, rad or m; None: where it is.
-
-    Raises:
-        InputError: No such joint, one given twice, or a value that is not a finite number.
-    """
-    if isinstance(locked, (str, int)) or getattr(locked, "ndim", 1) == 0:
-        locked = [locked if isinstance(locked, str) else int(np.asarray(locked))]
-    if not isinstance(locked, Iterable):
-        raise InputError(f"locked is {locked!r}; it must be a joint, joints, or {{joint: value}}")
-    given = list(locked.items()) if isinstance(locked, Mapping) else [(joint, None) for joint in locked]
-    found: dict[int, float | None] = {}
-    for joint, value in given:
-        k = arm.joint_index(joint)
-        name, unit = arm.joint_names[k], arm.joints[k].unit
-        if k in found:
-            raise InputError(f"joint '{name}' is locked twice; give each joint once")
-        found[k] = None
-        if value is not None:
-            number = real_numbers(value, f"the lock of '{name}'", f"a number, {unit}")
-            if number.ndim or not np.isfinite(number):
-                raise InputError(f"joint '{name}' is locked at {value}; give a finite number, {unit}")
-            found[k] = float(number)
-    return found
-
-
-def locks_at(arm: Arm, locked: Locked, at: NDArray[np.float64]) -> dict[int, float]:
-    """What :func:`read_locks` reads, in the arm's order, with the values of ``at`` (n,) for joints locked where they are."""
-    return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
-
-
-def locks_given(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], NDArray[np.float64]]:
-    """The locked joints (k,) in the order given and their values (k,), for what needs a value of each and a joint left.
-
-    Raises:
-        InputError: As for :func:`read_locks`; a joint without a value; no joint, or all.
-    """
-    found = read_locks(arm, locked)
-    if not 1 <= len(found) < arm.n:
-        raise InputError(f"locked names {len(found)} joints of '{arm.name}'; give 1 to {arm.n - 1}")
-    unknown = [repr(arm.joint_names[k]) for k, value in found.items() if value is None]
-    if unknown:
-        raise InputError(f"locked gives no value for {' and '.join(unknown)}; give {{joint: value}}, rad or m")
-    return tuple(found), np.array(list(found.values()), dtype=np.float64)
 
 
 def single_joints(arm: Arm, failures: FailureSpec | None) -> list[int]:

@@ -1,0 +1,99 @@
+"""``holdfast endure``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+import holdfast as hf
+from holdfast.cli.clearance import (
+    CapsulesOption,
+    CellOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_kept,
+)
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    JsonOption,
+    OutOption,
+    PlotOption,
+    SeedOption,
+    TipOption,
+    check_unit_of_places,
+    read_arm,
+    read_configuration,
+    read_task,
+)
+from holdfast.grammar import TASKS
+from holdfast.present.results import drawn, printed
+
+
+def command(
+    arm: ArmArgument,
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)],
+    rates: Annotated[
+        Path | None,
+        typer.Option("--rates", help="File with how often each joint locks (YAML). Default: all alike.", show_default=False),
+    ] = None,
+    mode: Annotated[
+        str, typer.Option("--mode", help="on-path, or detour: after a lock the tool may leave its path and come back.")
+    ] = "on-path",
+    task: Annotated[
+        str | None,
+        typer.Option(
+            "--task", help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: as for follow.", show_default=False
+        ),
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option("--start", help="Where the motion begins, rad and m. Default: anywhere.", show_default=False)
+    ] = None,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
+    samples: Annotated[int, typer.Option("--samples", help="Poses, evenly spaced in time.")] = 101,
+    spacing: Annotated[float, typer.Option("--spacing", help="Of the configurations of a pose, rad.")] = 0.05,
+    duration: Annotated[
+        float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
+    ] = None,
+    cell: CellOption = None,
+    clearance: ClearanceOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    margin: MarginOption = None,
+    seed: SeedOption = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    plot: PlotOption = None,
+    out: OutOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Find the motion along a path that survives most: the path can be finished whichever joint locks, whenever it does.
+
+    Example: holdfast endure panda line.yaml --out endured
+    """
+    check_clearance(clearance, capsules, radius, margin, cell)
+    model = read_arm(arm, base, tip, hold)
+    timed = hf.paths.TimedPath.load(path, duration)
+    check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
+    result = hf.endure(
+        model,
+        timed,
+        rates=None if rates is None else hf.FailureRates.load(model, rates),
+        mode=mode,  # type: ignore[arg-type]
+        task=None if task is None else read_task(task, arm, model),
+        samples=samples,
+        spacing=spacing,
+        start=None if start is None else read_configuration(model, start, degrees),
+        seed=seed,
+        clearance=read_kept(model, clearance, capsules, radius, margin, cell),
+        margin=margin or 0.0,
+    )
+    printed(result, json_, ([] if csv is None else [result.to_csv(csv)]) + drawn(result, plot, out))

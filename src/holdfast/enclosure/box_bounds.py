@@ -1,0 +1,239 @@
+"""What a box of joints can be told to hold: one kernel for all boxes, poses and failures of an arm and a task.
+
+Over a box with centre c and half widths h the rows of a task are ``e(q) = e(c) + J (q - c) + r`` with ``|r_i| <= b_i``: J is
+exact, and b bounds the second derivatives over the box.
+
+- ``rho_k``, a bound of the distance of the tool from axis k in the box, from the tool inwards, as only the joints beyond k
+  change it: ``min(rho_k of the arm, |J_k(c)| + sum_{l>k} rho_l h_l)``. Of a slide it is 1, the length of its column.
+- position: ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l``, so that
+  ``b = sum_l rho_l h_l (sum_{k<l} h_k + h_l / 2)``, the inner joints and l itself counted only where they turn.
+- orientation: with the tool's axes ``a_i`` and those wanted ``d_i`` the rows are ``1/2 sum a_i x d_i``, or of the tool's z
+  axis alone its products with the wanted x and y axes. Both are linear in the axes, each second derivative is at most 1 in any
+  direction, so that ``b = S^2 / 2`` with S the sum of the half widths of joints that turn. They also vanish half a turn
+  away, which no box with ``S`` below the angle that is missed can hold: such boxes are empty.
+
+A box is empty if in some direction v of the rows ``|v e(c)| > sum_k |v J_k| h_k + sum_i |v_i| b_i``; tried are the error's own
+direction and ``v = (J h^2 J' + b^2)^-1 e(c)``, the direction in which it is farthest in units of what the box can make of it.
+
+For every matrix Y the solutions in a box obey ``q - c = -Y e(c) + (I - Y J)(q - c) - Y r`` (Krawczyk 1969 in this form): the
+right side is a box again, with ``Y = h^2 J' (J h^2 J' + b^2)^-1``. What lies outside it is cut away. If as many joints move as
+there are rows and it lies strictly inside, the box holds a solution (Brouwer).
+
+Source: interval Newton methods (Krawczyk 1969; Neumaier 1990); the bounds and the choice of Y and v are ours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, plane_normal
+from holdfast.errors import TaskError
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
+from holdfast.linalg import Cholesky
+
+Array = NDArray[np.float64]
+
+_TINY = 1e-30  # keeps the inverse finite where a box and its remainder are nothing
+TURNS = {"none": 0, "axis": 2, "all": 3, "plane": 1}
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Which rows of a pose a task has, as far as bounds are known for them.
+
+    Attributes:
+        linear: (k, 3) rows of the position, world frame.
+        turn: Of the orientation: ``none``, the tool's z ``axis``, ``all`` of it, or the turn in the ``plane`` of the arm.
+        normal: (3,) of that plane.
+    """
+
+    linear: tuple[tuple[float, ...], ...]
+    turn: str
+    normal: tuple[float, ...] = ()
+
+    @property
+    def m(self) -> int:
+        """Number of rows."""
+        return len(self.linear) + TURNS[self.turn]
+
+    @classmethod
+    def of(cls, arm: Arm, task: Task) -> Parts:
+        """Those of a task.
+
+        Raises:
+            TaskError: Rows for which no bound is known.
+        """
+        rows = task.rows
+        turning = np.abs(rows[:, 3:]).max(axis=1) > 0
+        linear, angular = rows[~turning], rows[turning]
+        mixed = bool(np.abs(angular[:, :3]).max(initial=0.0) > 0)
+        if not mixed and (task.frame == "base" or len(linear) in (0, 3)):
+            places = np.eye(3) if task.frame == "tool" and len(linear) else linear[:, :3]
+            made = tuple(map(tuple, places.tolist()))
+            normal = plane_normal(arm)
+            if not len(angular):
+                return cls(made, "none")
+            if len(angular) == 3:
+                return cls(made, "all")
+            if task.frame == "tool" and len(angular) == 2 and np.abs(angular[:, 5]).max() == 0:
+                return cls(made, "axis")
+            if normal is not None and task.frame == "base" and abs(abs(angular[0, 3:] @ normal) - 1) < 1e-9:
+                return cls(made, "plane", tuple(normal.tolist()))
+        raise TaskError(
+            f"nothing can be proved about task '{task.name}'; known are position rows in the world frame, alone, with the "
+            "whole orientation, with the direction of the tool's z axis (pointing), or with the turn of a planar arm"
+        )
+
+
+@recalled
+def box_kernel(arm: Arm, parts: Parts) -> Kernel:
+    """The kernel of an arm and a task's rows.
+
+    Inputs: centre (n,) and half widths (n,), rad and m; position (3,) and orientation (3, 3) wanted; by how much each row may
+    be missed (m,). Outputs: ``margin``, above 0 for a box that is empty; middle (n,) and half widths (n,) of what it can still
+    hold, from its centre; ``rho`` (n,); the rows' error at the centre (m,).
+    """
+    n = arm.n
+    c, h = ca.SX.sym("c", n), ca.SX.sym("h", n)
+    p, r, tolerance = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("t", parts.m)
+    chain = kinematics.chain(arm, c)
+    foot = _foot(arm) if parts.turn == "all" and parts.linear else None
+    beside = np.zeros(3) if foot is None else arm.tool[:3, :3].T @ (foot - arm.tool[:3, 3])
+    point = chain.position + chain.rotation @ beside
+    full = kinematics.jacobian_of(arm, chain, point)
+    turns = [0.0 if joint.prismatic else 1.0 for joint in arm.joints]
+    rho = _distances(arm, full, h, turns, arm.tool[:3, 3] if foot is None else foot)
+    leaning = turning(arm, parts)
+    spread = sum((h[k] for k in range(n) if leaning[k]), ca.SX(0))
+    second, inner = ca.SX(0), ca.SX(0)
+    for k in range(n):
+        second += rho[k] * h[k] * (inner + turns[k] * h[k] / 2)
+        inner += turns[k] * h[k]
+    error, slopes, remainder = [], [], []
+    if parts.linear:
+        matrix = kinematics.constant(np.array(parts.linear))
+        error.append(matrix @ (point - p - r @ beside))
+        slopes.append(matrix @ full[:3, :])
+        remainder += [second] * len(parts.linear)
+    missed = None
+    if parts.turn != "none":
+        value, slope, cosine = _turn(parts, chain.rotation, full[3:, :], r)
+        error.append(value)
+        slopes.append(slope)
+        remainder += [spread * spread / 2] * TURNS[parts.turn]
+        missed = cosine
+    e, j = ca.densify(ca.vertcat(*error)), ca.vertcat(*slopes)
+    stretch = 1 + 2 * float(np.linalg.norm(beside))  # the point beside the tool is missed by the turn too
+    b = ca.vertcat(*remainder) + ca.vertcat(tolerance[: len(parts.linear)] * stretch, tolerance[len(parts.linear) :])
+    weighted = j @ ca.diag(h * h)
+    gram = weighted @ j.T + ca.diag(b * b + _TINY)
+    factor = Cholesky([[gram[i, k] for k in range(parts.m)] for i in range(parts.m)])
+    farthest = ca.vertcat(*factor.solve(ca.vertsplit(e)))
+    tests = [_apart(farthest / ca.sqrt(ca.sumsqr(farthest) + _TINY), e, j, h, b)]
+    if parts.linear:
+        k = len(parts.linear)
+        length = ca.sqrt(ca.sumsqr(e[:k]) + _TINY)
+        own = ca.vertcat(e[:k] / length, ca.SX(parts.m - k, 1))
+        tests.append(_apart(own, e, j, h, b))
+        first = sum((rho[i] * h[i] for i in range(n)), ca.SX(0))
+        tests.append(length - first - stretch * ca.sqrt(ca.sumsqr(tolerance[:k])))
+    if missed is not None:
+        lean = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :]))
+        tests.append(ca.cos(ca.fmin(spread + 2 * lean, np.pi)) - missed)
+    inverse = ca.horzcat(*[ca.vertcat(*factor.solve([ca.SX(float(i == k)) for i in range(parts.m)])) for k in range(parts.m)])
+    y = weighted.T @ inverse
+    middle = -(y @ e)
+    radius = ca.fabs(ca.SX.eye(n) - y @ j) @ h + ca.fabs(y) @ b
+    margin = tests[0]
+    for test in tests[1:]:
+        margin = ca.fmax(margin, test)
+    return Kernel("box of joints", [c, h, p, r, tolerance], [margin, middle, radius, ca.vertcat(*rho), e])
+
+
+def turning(arm: Arm, parts: Parts) -> list[bool]:
+    """(n,) True for joints that change the rows of the orientation: of a tool's axis not one that it lies along."""
+    if parts.turn == "none":
+        return [False] * arm.n
+    found = [not joint.prismatic for joint in arm.joints]
+    along = arm.tool[:3, 2] @ arm.joints[-1].axis
+    if parts.turn == "axis" and abs(abs(along) - 1) < 1e-12:
+        found[-1] = False
+    return found
+
+
+def idle(arm: Arm, parts: Parts) -> bool:
+    """Whether the last joint moves no row: the tool point lies on its axis, and its turn does not count."""
+    last = arm.joints[-1]
+    on = np.linalg.norm(np.cross(last.axis, arm.tool[:3, 3])) < 1e-12 * arm.length_unit
+    return bool(not last.prismatic and on and not turning(arm, parts)[-1])
+
+
+def _foot(arm: Arm) -> Array | None:
+    """The point of the last axis nearest to the one before it, in the last link's frame; None if that does not turn.
+
+    Of a full pose any point of the tool is known; this one is moved by fewer joints than the tool point, and less.
+    """
+    last = arm.joints[-1]
+    if last.prismatic or arm.n < 2:
+        return None
+    one, other = arm.joints[-2].axis, last.origin[:3, :3] @ last.axis
+    across = 1 - (one @ other) ** 2
+    if across < 1e-9:
+        return np.zeros(3)
+    away = -last.origin[:3, 3]
+    along = (away @ other - (away @ one) * (one @ other)) / across
+    return np.asarray(along * last.axis)
+
+
+def _distances(arm: Arm, full: SX, h: SX, turns: list[float], point: Array) -> list[SX]:
+    """``rho`` of every joint, for a point given in the last link's frame."""
+    most = _greatest(arm, point)
+    rho: list[SX] = [ca.SX(1)] * arm.n
+    beyond = ca.SX(0)
+    for k in reversed(range(arm.n)):
+        if turns[k]:
+            rho[k] = ca.fmin(most[k], ca.sqrt(ca.sumsqr(full[:3, k])) + beyond)
+        beyond += rho[k] * h[k]
+    return rho
+
+
+def _greatest(arm: Arm, point: Array) -> list[float]:
+    """How far from each joint's axis the point can be at all: the lengths of what lies beyond it."""
+    length, found = float(np.linalg.norm(point)), []
+    for joint in reversed(arm.joints):
+        if joint.prismatic:
+            length += max(abs(joint.lower), abs(joint.upper))
+        found.append(length)
+        length += float(np.linalg.norm(joint.origin[:3, 3]))
+    return found[::-1]
+
+
+def _turn(parts: Parts, rotation: SX, spin: SX, r: SX) -> tuple[SX, SX, SX]:
+    """Rows of the orientation, their slopes, and the cosine of the angle that is missed."""
+    n = spin.shape[1]
+    if parts.turn == "axis":
+        axis = rotation[:, 2]
+        moved = ca.horzcat(*[ca.cross(spin[:, k], axis) for k in range(n)])
+        return r[:, :2].T @ axis, r[:, :2].T @ moved, ca.dot(axis, r[:, 2])
+    value, slope = ca.SX(3, 1), ca.SX(3, n)
+    for i in range(3):
+        value += ca.cross(r[:, i], rotation[:, i]) / 2
+        slope += ca.horzcat(*[ca.cross(r[:, i], ca.cross(spin[:, k], rotation[:, i])) / 2 for k in range(n)])
+    cosine = (ca.trace(r.T @ rotation) - 1) / 2
+    if parts.turn == "plane":
+        row = ca.DM(parts.normal).T
+        return row @ value, row @ slope, cosine
+    return value, slope, cosine
+
+
+def _apart(v: SX, e: SX, j: SX, h: SX, b: SX) -> SX:
+    """By how much the error in a direction exceeds what the box can make of it."""
+    return ca.fabs(ca.dot(v, e)) - ca.dot(ca.fabs(j.T @ v), h) - ca.dot(ca.fabs(v), b)

@@ -1,0 +1,341 @@
+"""What a motion along a path survives, and how much better one could be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.caching import cached_property
+from holdfast.clearance.clearance import Clearance
+from holdfast.endurance.injection import Injection, drawn_locks, finished, healthy
+from holdfast.endurance.problem import Mode, Problem
+from holdfast.endurance.rates import FailureRates
+from holdfast.errors import InputError
+from holdfast.files.output import write_table
+from holdfast.notice import says
+from holdfast.paths.timed_path import TimedPath
+from holdfast.probability.intervals import Interval
+from holdfast.result import Result
+from holdfast.words import percent
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Index = NDArray[np.int64]
+
+_LITTLE, _STILL = 0.3, 1e-6  # rad and m along a whole curve
+_WHOLE = 1e-9  # of a probability: less is rounding
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class VelocityJump:
+    """The twist of the end effector that vanishes when one joint stops at once, ``J_i q_i'``.
+
+    Attributes:
+        linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
+        mean_linear, mean_angular: Means over time and joints, weighted by the failure rates.
+
+    Source: Abdi and Nahavandi 2012, the jump of the end effector's velocity at a lock.
+    """
+
+    linear: Array
+    angular: Array
+    mean_linear: float
+    mean_angular: float
+
+    @property
+    def most_linear(self) -> float:
+        """m/s."""
+        return float(self.linear.max())
+
+    @property
+    def most_angular(self) -> float:
+        """rad/s."""
+        return float(self.angular.max())
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Found:
+    """What a search over all motions of the grid knows.
+
+    Attributes:
+        bound: No motion of the grid survives more: at every instant the best node, whether a motion leads there or not.
+        interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
+            exceed them by the spacing from pose to pose, as nodes are no finer. NaN where there is none.
+        spacing: Of the nodes, rad (and m).
+        nodes: T arrays (P, n) of configurations, all that were found.
+        curve: T arrays (P,) with the number of their curve.
+        survives: T arrays (P, n): True where a lock there is survivable.
+        moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
+    """
+
+    bound: float
+    interval: tuple[float, float]
+    spacing: float
+    nodes: Sequence[Array]
+    curve: Sequence[Index]
+    survives: Sequence[Flags]
+    moved: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Endurance(Result):
+    """Which single locks a motion along a path survives, at T times.
+
+    A lock stops a joint at once and for good; it is survived if the rest of the path can still be followed. Later locks are
+    not counted.
+
+    Attributes:
+        arm, task: What moves, and which rows of the path it keeps.
+        path: Where the tool is to be, and when.
+        mode: ``on-path``: the failed arm goes on from where it is, at its own pace, and its tool never leaves the path.
+            ``detour``: it may leave the path and come back to it.
+        rates: Of the joints.
+        time: (T,) s.
+        poses: (T, 4, 4) of the tool in the world.
+        q: (T, n) the motion, rad and m.
+        survives: (T, n) True where a lock of the joint at that time is survived.
+        kept: What the motion and the failed arm keep clear of, and by how much, m; or None.
+        found: What the search for the best motion knows; None for a motion that was given.
+        exact: False where a verdict is only necessary: detours among obstacles, which are not looked for.
+    """
+
+    arm: Arm
+    task: Task
+    path: TimedPath
+    mode: Mode
+    rates: FailureRates
+    time: Array
+    poses: Array
+    q: Array
+    survives: Flags
+    kept: tuple[Clearance, float] | None = None
+    found: Found | None = None
+    exact: bool = True
+    _problem: Problem = field(repr=False)
+
+    @classmethod
+    def of(cls, problem: Problem, q: Array, survives: Flags, found: Found | None = None) -> Endurance:
+        """Of a motion (T, n), with its verdicts (T, n)."""
+        return cls(
+            arm=problem.arm,
+            task=problem.task,
+            path=problem.path,
+            mode=problem.mode,
+            rates=problem.rates,
+            time=problem.time,
+            poses=problem.lock.poses,
+            q=q,
+            survives=survives,
+            kept=problem.kept,
+            found=found,
+            exact=problem.mode == "on-path" or problem.kept is None,
+            _problem=problem,
+        )
+
+    @property
+    def survival(self) -> float:
+        """Probability that the path is finished, given that one joint locks on the way."""
+        return self._mean(self.curve())
+
+    @property
+    def bound(self) -> float | None:
+        """No motion survives more, up to the grid; None for a motion that was given."""
+        return None if self.found is None else self.found.bound
+
+    @property
+    def gap(self) -> float | None:
+        """How far the motion is from the bound, at most."""
+        return None if self.found is None else max(self.found.bound - self.survival, 0.0)
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """The best of the grid within the velocity limits, and with the spacing on top; see :class:`Found`."""
+        return None if self.found is None else self.found.interval
+
+    def curve(self) -> Array:
+        """(T,) probability that a lock at that time is survived, whichever joint it is."""
+        return np.asarray(self.survives @ self.rates.each / self.rates.total)
+
+    @cached_property
+    def by_joint(self) -> dict[str, float]:
+        """Probability that a lock of each joint is survived, whenever it is."""
+        return {name: self._mean(x) for name, x in zip(self.arm.joint_names, self.survives.T.astype(np.float64), strict=True)}
+
+    @property
+    def guaranteed(self) -> bool:
+        """True if every lock at every sample is survived, of joints that can fail."""
+        return bool((self.curve() >= 1 - _WHOLE).all())
+
+    @property
+    def safe_from(self) -> float:
+        """Every lock from this sample on is survived, s. At the end of the path nothing is left to be lost."""
+        lost = np.flatnonzero(self.curve() < 1 - _WHOLE)
+        return float(self.time[0] if not lost.size else self.time[min(lost[-1] + 1, len(self.time) - 1)])
+
+    @property
+    def safe_until(self) -> float | None:
+        """Every lock up to this sample is survived, s; None if one at the very start is not."""
+        lost = np.flatnonzero(self.curve() < 1 - _WHOLE)
+        if not lost.size:
+            return float(self.time[-1])
+        return float(self.time[lost[0] - 1]) if lost[0] else None
+
+    @property
+    def worst(self) -> tuple[float, float]:
+        """When a lock is survived least, s, and with what probability."""
+        k = int(self.curve().argmin())
+        return float(self.time[k]), float(self.curve()[k])
+
+    @property
+    def lost(self) -> float | None:
+        """Probability that a lock comes and loses the path, with rates per second; None without."""
+        if not self.rates.per_second:
+            return None
+        return float(self.rates.weights(self.time) @ ((1 - self.curve()) * self.rates.total))
+
+    @cached_property
+    def never(self) -> tuple[float, str] | None:
+        """The first sample, s, at which no configuration of the pose survives every lock, and the joint that is lost.
+
+        So no motion at all is guaranteed. None if there is no such sample, or if the motion was given.
+        """
+        if self.found is None:
+            return None
+        counts = self.rates.each > 0
+        for t, survives in enumerate(self.found.survives):
+            if not survives[:, counts].all(axis=1).any():
+                share = np.where(counts, survives.mean(axis=0), np.inf)
+                return float(self.time[t]), self.arm.joint_names[int(share.argmin())]
+        return None
+
+    @cached_property
+    def rates_of_joints(self) -> Array:
+        """(T, n) rad/s and m/s, by differences."""
+        return np.asarray(np.gradient(self.q, self.time, axis=0, edge_order=2 if len(self.time) > 2 else 1))
+
+    @cached_property
+    def speed(self) -> float:
+        """Largest fraction of a joint's velocity limit that the motion takes from sample to sample; above 1: it is too fast."""
+        velocity = np.array([j.velocity for j in self.arm.joints])
+        return float((np.abs(np.diff(self.q, axis=0)) / np.diff(self.time)[:, None] / velocity).max())
+
+    @cached_property
+    def jump(self) -> VelocityJump:
+        """What the end effector's velocity loses when a joint stops at once."""
+        twists = self.arm.jacobian(self.q) * self.rates_of_joints[:, None, :]
+        linear, angular = (np.linalg.norm(x, axis=1) for x in (twists[:, :3], twists[:, 3:]))
+        share = self.rates.each / self.rates.total
+        return VelocityJump(
+            linear=linear,
+            angular=angular,
+            mean_linear=self._mean(linear @ share),
+            mean_angular=self._mean(angular @ share),
+        )
+
+    @checked
+    @says("injecting locks")
+    def inject(self, locks: int = 1000, *, seed: int = 1) -> Injection:
+        """Try the motion: joints that lock at random times, and whether the failed arm gets to the end.
+
+        On the path the failed arm is followed by another integrator than the table's, along the arc of its branch with steps of
+        Runge and Kutta; with detours, inverse kinematics must find a configuration of every sample still to come. Joints are
+        drawn by their rates, and times evenly; with rates per second, as failures come that come before the end.
+
+        Args:
+            locks: How many.
+            seed: Of the draws.
+
+        Raises:
+            InputError: Fewer than one lock.
+        """
+        if locks < 1:
+            raise InputError(f"locks is {locks}; it must be 1 or more")
+        generator = np.random.default_rng(np.random.SeedSequence(seed))
+        time, joint = drawn_locks(self._problem, locks, generator)
+        survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint)
+        nearest = np.rint(np.interp(time, self.time, np.arange(len(self.time)))).astype(np.int64)
+        return Injection(
+            time=time,
+            joint=joint,
+            survived=survived,
+            expected=self.survives[nearest, joint],
+            interval=Interval.of(float(survived.sum()), locks),
+        )
+
+    def to_csv(self, file: str | Path) -> Path:
+        """Write the motion as rows: time, joints, and the probability that a lock then is survived.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        header = ["time_s", *(f"{j.name}_{j.unit}" for j in self.arm.joints), "survival"]
+        rows = np.column_stack([self.time, self.q, self.curve()])
+        return write_table(file, "motion", header, rows, ["%.12g"] * len(header))
+
+    def _mean(self, values: Array) -> float:
+        weights = self.rates.weights(self.time)
+        return float(weights @ values / weights.sum())
+
+    def _set_by_the_pose(self) -> list[str]:
+        """Why some locks are hardly survived by any motion, of full poses above all that of an elbow."""
+        if self.found is None:
+            return []
+        joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0))
+        lines = []
+        for joint, most in zip([self.arm.joints[k] for k in joints], self.found.moved[joints], strict=True):
+            moves = "does not move" if most <= _STILL else f"moves by at most {most:.3g} {joint.unit}"
+            lines.append(
+                f"the self-motion {moves} {joint.name}: the pose sets it (of an elbow between spherical shoulder and wrist "
+                "their distance does), so that its lock is survived only while that hardly changes"
+            )
+        return lines
+
+    @property
+    def headline(self) -> str:
+        """The answer in a sentence."""
+        if self.guaranteed:
+            return "every lock of a joint, at any sample of the path, is survived"
+        return f"{percent(self.survival)} of all locks of a joint on the way are survived"
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        how = "without leaving the path" if self.mode == "on-path" else "with detours"
+        lines = [f"{self.arm.title}, {self.path.describe()}: {self.headline}, {how}"]
+        if self.found is not None:
+            low, high = self.found.interval
+            lines.append(
+                f"no motion survives more than {percent(self.found.bound)}, up to the grid of {len(self.time)} poses and "
+                f"{self.found.spacing:g} rad; over its nodes the best within the velocity limits survives "
+                f"{'none found' if np.isnan(low) else percent(low)}, and {percent(high)} if the spacing comes on top of them"
+            )
+        if not self.guaranteed:
+            when, least = self.worst
+            lines.append(
+                f"by joint: {', '.join(f'{name} {percent(x)}' for name, x in self.by_joint.items())}; "
+                f"worst at {when:.4g} s, where {percent(least)} are survived; from {self.safe_from:.4g} s on all are"
+            )
+        if self.never is not None:
+            when, name = self.never
+            lines.append(
+                f"no motion survives everything: at {when:.4g} s no configuration survives every lock, nor that of {name} least"
+            )
+        lines += self._set_by_the_pose()
+        if self.speed > 1 + _WHOLE:
+            lines.append(f"the motion takes {self.speed:.3g} times the velocity limit of a joint: slow the path down")
+        if self.lost is not None:
+            lines.append(f"probability that a lock loses the path: {self.lost:.3g}")
+        if not self.exact:
+            lines.append("detours among obstacles were not looked for: every probability is an upper bound")
+        jump = self.jump
+        lines.append(
+            f"when a joint stops at once the tool loses at most {jump.most_linear:.3g} m/s and {jump.most_angular:.3g} rad/s, "
+            f"in the mean {jump.mean_linear:.3g} m/s and {jump.mean_angular:.3g} rad/s"
+        )
+        return lines

@@ -1,0 +1,166 @@
+"""Locks injected into a motion at random times: does the failed arm get to the end? By another integrator than the table's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.endurance.problem import Problem
+from holdfast.notice import Count
+from holdfast.probability.intervals import Interval
+from holdfast.solvers import joint_space
+from holdfast.solvers.inverse_kinematics import solver
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Index = NDArray[np.int64]
+
+_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
+_WHOLE = 5.0  # what the duration counts beside joints, rad
+_LONGEST = 60.0  # of a branch
+_OFF = 1e-3  # m and rad at the end: the integration went wrong
+_RESTARTS = 30
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Injection:
+    """Locks at random times, N of them.
+
+    Attributes:
+        time: (N,) s.
+        joint: (N,) index of the locked joint.
+        survived: (N,) True where the failed arm finished the path.
+        expected: (N,) what the motion's own table says, at the nearest sample.
+        interval: Of the probability that a lock is survived.
+    """
+
+    time: Array
+    joint: Index
+    survived: Flags
+    expected: Flags
+    interval: Interval
+
+    @property
+    def alike(self) -> float:
+        """Fraction of the locks of which table and injection say the same."""
+        return float((self.survived == self.expected).mean())
+
+    @property
+    def disagreements(self) -> list[tuple[float, int]]:
+        """Time, s, and joint of the others."""
+        other = self.survived != self.expected
+        return list(zip(self.time[other].tolist(), self.joint[other].tolist(), strict=True))
+
+
+def drawn_locks(problem: Problem, locks: int, generator: np.random.Generator) -> tuple[Array, Index]:
+    """Times (N,) and joints (N,): joints by their rates; times evenly, or as the first failure comes within the duration."""
+    rates, duration = problem.rates, problem.path.duration
+    joint = generator.choice(problem.arm.n, size=locks, p=rates.each / rates.total)
+    share = generator.uniform(size=locks)
+    if rates.per_second:
+        end = -np.expm1(-rates.total * duration)
+        return -np.log1p(-share * end) / rates.total, joint
+    return share * duration, joint
+
+
+def finished(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
+    """(N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path."""
+    return (_on_path if problem.mode == "on-path" else _with_detours)(problem, q, time, joint)
+
+
+def _on_path(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
+    """The branch through (joints, time) by its arc length, with Runge and Kutta's steps of fourth order.
+
+    Where time turns back on it the branch ends: nothing goes on from there along the path.
+    """
+    arm, scale = problem.arm, _WHOLE / problem.path.duration
+    survived = np.zeros(len(q), dtype=bool)
+    left = np.arange(len(q))
+    state = np.column_stack([q, time * scale])
+    tangent = np.zeros(state.shape)
+    tangent[:, -1] = 1.0
+    with Count("locks", len(q)) as tell:
+        for _ in range(int(_LONGEST / _STEP)):
+            if not left.size:
+                break
+            lock = joint[left]
+            first = _direction(problem, state, lock, tangent, scale)
+            second = _direction(problem, state + _STEP / 2 * first, lock, first, scale)
+            third = _direction(problem, state + _STEP / 2 * second, lock, second, scale)
+            fourth = _direction(problem, state + _STEP * third, lock, third, scale)
+            state = state + _STEP / 6 * (first + 2 * second + 2 * third + fourth)
+            tangent = fourth
+            here = state[:, :-1]
+            over = state[:, -1] >= _WHOLE
+            good = ((here >= arm.lower - 1e-9) & (here <= arm.upper + 1e-9)).all(axis=1) & (fourth[:, -1] > 0)
+            if problem.kept is not None:
+                good &= problem.kept[0].room(here) >= problem.kept[1] - 1e-9
+            ended = np.flatnonzero(over & good)
+            survived[left[ended]] = _on_last_pose(problem, here[ended], fourth[ended], state[ended, -1])
+            go_on = good & ~over
+            tell(int(np.count_nonzero(~go_on)))
+            left, state, tangent = left[go_on], state[go_on], tangent[go_on]
+    return survived
+
+
+def _on_last_pose(problem: Problem, q: Array, tangent: Array, at: Array) -> Flags:
+    """Whether branches that have passed the end did so on the last pose."""
+    back = (at - _WHOLE) / tangent[:, -1]
+    ends = q - back[:, None] * tangent[:, :-1]
+    last = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
+    return np.asarray(np.max(solver(problem.arm, problem.task).errors(ends, last), axis=0, initial=0.0) <= _OFF)
+
+
+def _direction(problem: Problem, state: Array, lock: Index, before: Array, scale: float) -> Array:
+    """(N, n + 1) unit tangent of the branch at (joints, scaled time), the way that it ran ``before``."""
+    arm, task = problem.arm, problem.task
+    n, rows = arm.n, np.arange(len(state))
+    time = np.clip(state[:, -1] / scale, 0.0, problem.path.duration * (1 - 1e-12))
+    twist = problem.path.twist(time) / scale
+    columns = np.concatenate([arm.jacobian(state[:, :-1]), -twist[:, :, None]], axis=2)
+    if task.frame == "tool":
+        turned = arm.forward_kinematics(state[:, :-1])[:, :3, :3].transpose(0, 2, 1)
+        columns = np.concatenate([turned @ columns[:, :3], turned @ columns[:, 3:]], axis=1)
+    system = np.zeros((len(state), n + 1, n + 1))
+    system[:, : task.m] = task.rows @ columns
+    system[rows, task.m, lock] = 1.0
+    system[:, n] = before
+    wanted = np.zeros((len(state), n + 1, 1))
+    wanted[:, n] = 1.0
+    try:
+        found = np.linalg.solve(system, wanted)[:, :, 0]
+    except np.linalg.LinAlgError:
+        found = (np.linalg.pinv(system) @ wanted)[:, :, 0]
+    return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-300))
+
+
+def _with_detours(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
+    """Inverse kinematics with the joint locked finds a configuration of every sample still to come."""
+    first = np.searchsorted(problem.time, time)
+    count = len(problem.time) - first
+    owner = np.repeat(np.arange(len(q)), count)
+    pose = np.concatenate([np.arange(k, len(problem.time)) for k in first])
+    clear = problem.kept
+    reached = solver(problem.arm, problem.task).reaches_locked(
+        problem.lock.poses[pose],
+        joint[owner],
+        q[owner, joint[owner]],
+        np.random.SeedSequence(0),
+        _RESTARTS,
+        1e-6,
+        None if clear is None else lambda x: clear[0].room(x) >= clear[1],
+    )
+    survived = np.ones(len(q), dtype=bool)
+    survived[owner[~reached]] = False
+    return survived
+
+
+def healthy(problem: Problem, q: Array, time: Array) -> Array:
+    """(N, n) where a motion (T, n) is at times (N,), brought to the pose of that time."""
+    arm = problem.arm
+    k = np.clip(np.searchsorted(problem.time, time, side="right") - 1, 0, len(q) - 2)
+    share = (time - problem.time[k]) / np.diff(problem.time)[k]
+    between = q[k] + share[:, None] * joint_space.difference(arm, q[k + 1], q[k])
+    return problem.lock.tracer.corrected(between, problem.path.pose(time))[0]

@@ -1,0 +1,16 @@
+from holdfast.failures.degraded import Degraded as Degraded
+from holdfast.failures.degraded import Locked as Locked
+from holdfast.failures.degraded import LockedAnywhere as LockedAnywhere
+from holdfast.failures.degraded import LockedAt as LockedAt
+from holdfast.failures.degraded import LockedValues as LockedValues
+from holdfast.failures.degraded import degraded_at as degraded_at
+from holdfast.failures.degraded import locks_at as locks_at
+from holdfast.failures.degraded import locks_given as locks_given
+from holdfast.failures.degraded import read_locks as read_locks
+from holdfast.failures.sets import FailureSets as FailureSets
+from holdfast.failures.sets import FailureSpec as FailureSpec
+from holdfast.failures.sets import failure_names as failure_names
+from holdfast.failures.sets import failure_sets as failure_sets
+from holdfast.failures.sets import read_failures as read_failures
+from holdfast.failures.sets import read_joint as read_joint
+from holdfast.failures.sets import single_joints as single_joints

@@ -1,0 +1,306 @@
+"""What is known to have failed: joints that are locked, and joints that move less far or less fast than they should."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked, real_numbers
+from holdfast.errors import HoldfastError, InputError
+from holdfast.files import output
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Degraded:
+    """An arm some of whose joints are locked, have lost a part of their range, or are slower than they should be.
+
+    It is a box of limits and speeds, and is taken as ``locked=`` wherever a known lock is. In a file (:meth:`load`)::
+
+        locked: {panda_joint4: -1.2}              # rad or m; or [panda_joint4], locked where it is
+        range: {panda_joint2: [-0.5, 0.8]}        # it still moves, within this
+        speed: {panda_joint1: 0.3}                # the fraction of its velocity limit that is left
+
+    Attributes:
+        arm: The healthy arm.
+        locked: ``{name: value}`` of joints that are locked, rad or m; None: where it is.
+        ranges: ``{name: (low, high)}`` of joints that still move, within this only, rad or m.
+        speeds: ``{name: fraction}`` of its velocity limit, above 0 and at most 1.
+    """
+
+    arm: Arm
+    _: KW_ONLY
+    locked: Mapping[str, float | None]
+    ranges: Mapping[str, tuple[float, float]]
+    speeds: Mapping[str, float]
+
+    @checked
+    def __init__(
+        self,
+        arm: Arm,
+        *,
+        locked: Locked = (),
+        ranges: Mapping[Any, ArrayLike] | None = None,
+        speeds: Mapping[Any, float] | None = None,
+    ) -> None:
+        """What is degraded of an arm; joints by name or index from 0, several at once as they come.
+
+        Args:
+            arm: The healthy arm.
+            locked: ``{joint: value}``, rad or m; ``{joint: None}``, or the joints alone, for where they are.
+            ranges: ``{joint: (low, high)}``, rad or m.
+            speeds: ``{joint: fraction}``.
+
+        Raises:
+            InputError: No such joint, one given twice or both locked and moving, a range that is upside down or outside the
+                joint's limits, a fraction that is out of bounds or of a joint without a velocity limit; or nothing is degraded.
+        """
+        stands = {arm.joint_names[k]: value for k, value in sorted(read_locks(arm, locked).items())}
+        left = {name: _range(arm, name, ends) for name, ends in _by_name(arm, ranges or {}, "ranges").items()}
+        slow = {name: _fraction(arm, name, value) for name, value in _by_name(arm, speeds or {}, "speeds").items()}
+        if not (stands or left or slow):
+            raise InputError(f"nothing of '{arm.name}' is degraded; give locked, ranges or speeds")
+        for name in [*left, *slow]:
+            if name in stands:
+                raise InputError(f"joint '{name}' is locked and has a range or a speed; a locked joint does not move")
+        for what, value in (("arm", arm), ("locked", stands), ("ranges", left), ("speeds", slow)):
+            object.__setattr__(self, what, value)
+
+    @property
+    def lo(self) -> Array:
+        """(n,) lower limits in force, rad or m; of a locked joint its value, NaN where that is not known (see :meth:`at`)."""
+        return self._limits(0)
+
+    @property
+    def hi(self) -> Array:
+        """(n,) upper limits in force, likewise."""
+        return self._limits(1)
+
+    @property
+    def v(self) -> Array:
+        """(n,) velocity limits in force, rad/s or m/s, infinite where there is none; 0 of locked joints."""
+        return np.array([0.0 if j.name in self.locked else j.velocity for j in self.limited.joints], dtype=np.float64)
+
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """(n,) True for joints that are not locked."""
+        return np.array([name not in self.locked for name in self.arm.joint_names])
+
+    @property
+    def limited(self) -> Arm:
+        """The arm with the limits and speeds in force; locked joints as if healthy."""
+        if not self.ranges and not self.speeds:
+            return self.arm
+        joints = []
+        for joint in self.arm.joints:
+            if joint.name in self.ranges:
+                low, high = self.ranges[joint.name]
+                joint = replace(joint, type="prismatic" if joint.prismatic else "revolute", lower=low, upper=high)
+            joints.append(replace(joint, velocity=joint.velocity * self.speeds.get(joint.name, 1.0)))
+        return replace(self.arm, joints=tuple(joints))
+
+    def at(self, q: ArrayLike) -> Degraded:
+        """The same with joints that are locked where they are at their values in q (n,), rad and m."""
+        here = self.arm.check_configurations(q)
+        return replace(self, locked={self.arm.joint_names[k]: x for k, x in locks_at(self.arm, self.locked, here).items()})
+
+    def require_values(self) -> Degraded:
+        """Itself, or :class:`holdfast.InputError` if a joint is locked without a value."""
+        unknown = [repr(name) for name, value in self.locked.items() if value is None]
+        if unknown:
+            raise InputError(f"locked gives no value for {' and '.join(unknown)}; give {{joint: value}}, rad or m")
+        return self
+
+    def require_arm(self, arm: Arm) -> Degraded:
+        """Itself, or :class:`holdfast.InputError` if it is of another arm."""
+        if self.arm.fingerprint != arm.fingerprint:
+            raise InputError(f"what is degraded belongs to '{self.arm.name}', not to '{arm.name}'; make it with this arm")
+        return self
+
+    def _limits(self, side: int) -> Array:
+        bounds: Array = np.stack([self.limited.lower, self.limited.upper])[side]
+        for name, value in self.locked.items():
+            bounds[self.arm.joint_index(name)] = np.nan if value is None else value
+        return bounds
+
+    @classmethod
+    @checked
+    def load(cls, path: str | Path, arm: Arm) -> Degraded:
+        """What a YAML file says of an arm.
+
+        Raises:
+            InputError: The file cannot be read, or an entry is wrong; the sentence says which.
+        """
+        from pydantic import ValidationError
+
+        from holdfast.files.yaml import Number, Strict, content, sentence
+
+        class File(Strict):
+            locked: list[str] | dict[str, Number | None] | None = None
+            range: dict[str, list[Number]] | None = None
+            speed: dict[str, Number] | None = None
+
+        try:
+            read = File.model_validate(content(Path(path), "holdfast.Degraded", "locked, range or speed"))
+            return cls(arm, locked=read.locked or (), ranges=read.range, speeds=read.speed)
+        except ValidationError as error:
+            raise InputError(f"failure file '{path}': {sentence(error, File)}") from error
+        except HoldfastError as error:
+            raise InputError(f"failure file '{path}': {error}") from error
+
+    def to_dict(self) -> dict[str, Any]:
+        """The keys and values of a file."""
+        said = {"locked": self.locked, "range": {k: list(x) for k, x in self.ranges.items()}, "speed": self.speeds}
+        return {key: dict(values) for key, values in said.items() if values}
+
+    @checked
+    def save(self, path: str | Path) -> Path:
+        """Write the file that :meth:`load` reads, with every digit.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        import yaml
+
+        output.replaced(Path(path), yaml.safe_dump(self.to_dict(), sort_keys=False, allow_unicode=True), "failure")
+        return Path(path)
+
+    def mark(self, joint: str) -> str:
+        """What is said beside a joint in a table: ``locked``, ``less range``, ``slower``, or nothing."""
+        said = ("locked", self.locked), ("less range", self.ranges), ("slower", self.speeds)
+        return ", ".join(word for word, names in said if joint in names)
+
+    def describe(self) -> str:
+        """What is degraded, in one phrase: ``panda_joint4 locked at -68.8 deg and panda_joint1 at 30 % of its speed``."""
+        said = []
+        for name in self.arm.joint_names:
+            factor, unit = self.arm.joints[self.arm.joint_index(name)].shown
+            if name in self.locked:
+                value = self.locked[name]
+                said.append(f"{name} locked" + ("" if value is None else f" at {factor * value:.4g} {unit}"))
+            if name in self.ranges:
+                low, high = self.ranges[name]
+                said.append(f"{name} within {factor * low:.4g} to {factor * high:.4g} {unit}")
+            if name in self.speeds:
+                said.append(f"{name} at {100 * self.speeds[name]:.4g} % of its speed")
+        return " and ".join(said)
+
+
+# {joint: value}, rad or m; {joint: None}, or the joints alone, for where they are. Joints by name or index from 0.
+_At = Mapping[str, float] | Mapping[int, float] | Mapping[str | int, float]
+LockedAt = _At | Degraded
+LockedValues = Mapping[str, ArrayLike] | Mapping[int, ArrayLike] | Mapping[str | int, ArrayLike] | Degraded  # (N,) of each
+LockedAnywhere = str | int | Sequence[str | int] | Mapping[str, None] | Mapping[int, None] | Mapping[str | int, None]
+_Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str | int, float | None]
+Locked = str | int | Sequence[str | int] | _Mapping | Degraded
+
+
+def _by_name(arm: Arm, given: Mapping[Any, Any], what: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for joint, value in given.items():
+        name = arm.joint_names[arm.joint_index(joint)]
+        if name in found:
+            raise InputError(f"{what} gives joint '{name}' twice; give each joint once")
+        found[name] = value
+    return found
+
+
+def _range(arm: Arm, name: str, given: ArrayLike) -> tuple[float, float]:
+    joint = arm.joints[arm.joint_index(name)]
+    ends = real_numbers(given, f"the range of '{name}'", f"(low, high), {joint.unit}")
+    if ends.shape != (2,) or not np.isfinite(ends).all():
+        raise InputError(f"the range of '{name}' is {given!r}; give (low, high), two finite numbers, {joint.unit}")
+    low, high = ends.tolist()
+    if not low < high:
+        advice = "swap them" if low > high else "a joint that cannot move is locked"
+        raise InputError(f"the range of '{name}' is {low:g} to {high:g} {joint.unit}; {advice}")
+    if low < joint.lower or high > joint.upper:
+        raise InputError(
+            f"the range of '{name}', {low:g} to {high:g} {joint.unit}, is not within its limits, {joint.lower:g} to "
+            f"{joint.upper:g}"
+        )
+    return low, high
+
+
+def _fraction(arm: Arm, name: str, given: Any) -> float:
+    number = real_numbers(given, f"the speed of '{name}'", "a fraction of its velocity limit")
+    if number.ndim or not 0 < number <= 1:
+        raise InputError(f"the speed of '{name}' is {given!r}; give a fraction of its velocity limit, above 0 and at most 1")
+    if not np.isfinite(arm.joints[arm.joint_index(name)].velocity):
+        raise InputError(f"joint '{name}' has no velocity limit, so there is no fraction of it; leave its speed out")
+    return float(number)
+
+
+def degraded_at(arm: Arm, locked: Locked, at: Array) -> Degraded | None:
+    """What is degraded, of joints locked where they are with their values in ``at`` (n,); None if nothing is.
+
+    Raises:
+        InputError: As for :func:`read_locks`; a :class:`Degraded` of another arm.
+    """
+    if isinstance(locked, Degraded):
+        return locked.require_arm(arm).at(at)
+    stands = locks_at(arm, locked, at)
+    return Degraded(arm, locked=stands) if stands else None
+
+
+def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
+    """The locked joints by index, as given, each with its value, rad or m; None: where it is.
+
+    Raises:
+        InputError: No such joint, one given twice, a value that is not a finite number, or a range or speed in a
+            :class:`Degraded`.
+    """
+    if isinstance(locked, Degraded):
+        others = [f"a range of '{name}'" for name in locked.ranges] + [f"a speed of '{name}'" for name in locked.speeds]
+        if others:
+            raise InputError(
+                f"only locked joints count here, and what is degraded has {others[0]}; leave it out, or see recover"
+            )
+        locked = locked.require_arm(arm).locked
+    if isinstance(locked, (str, int)) or getattr(locked, "ndim", 1) == 0:
+        locked = [locked if isinstance(locked, str) else int(np.asarray(locked))]
+    if not isinstance(locked, Iterable):
+        raise InputError(f"locked is {locked!r}; it must be a joint, joints, or {{joint: value}}")
+    given = list(locked.items()) if isinstance(locked, Mapping) else [(joint, None) for joint in locked]
+    found: dict[int, float | None] = {}
+    for joint, value in given:
+        k = arm.joint_index(joint)
+        name, unit = arm.joint_names[k], arm.joints[k].unit
+        if k in found:
+            raise InputError(f"joint '{name}' is locked twice; give each joint once")
+        found[k] = None
+        if value is not None:
+            number = real_numbers(value, f"the lock of '{name}'", f"a number, {unit}")
+            if number.ndim or not np.isfinite(number):
+                raise InputError(f"joint '{name}' is locked at {value}; give a finite number, {unit}")
+            found[k] = float(number)
+    return found
+
+
+def locks_at(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
+    """What :func:`read_locks` reads, in the arm's order, with the values of ``at`` (n,) for joints locked where they are."""
+    return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
+
+
+def locks_given(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], Array]:
+    """The locked joints (k,) in the order given and their values (k,), for what needs a value of each and a joint left.
+
+    Raises:
+        InputError: As for :func:`read_locks`; a joint without a value; no joint, or all.
+    """
+    found = read_locks(arm, locked)
+    if not 1 <= len(found) < arm.n:
+        raise InputError(f"locked names {len(found)} joints of '{arm.name}'; give 1 to {arm.n - 1}")
+    unknown = [repr(arm.joint_names[k]) for k, value in found.items() if value is None]
+    if unknown:
+        raise InputError(f"locked gives no value for {' and '.join(unknown)}; give {{joint: value}}, rad or m")
+    return tuple(found), np.array(list(found.values()), dtype=np.float64)
