@@ -24,7 +24,6 @@ from holdfast.recovery.rows import row_solver
 Array = NDArray[np.float64]
 Rng = np.random.Generator
 
-UPRIGHT = np.deg2rad(2.0)  # rad that a tool which must stay upright may lean
 _DRAWS = 4000  # configurations drawn before a case counts as impossible to draw
 _LANES, _LANE, _APART = 3, 0.2, 0.04  # of wiping: lanes, and m of each and between two
 _KINDS = ("lock", "range", "speed")
@@ -42,7 +41,6 @@ class Case:
         rows: Of the end effector's pose that matter.
         goal: (4, 4) pose to be reached, world, m; None if a path is to be followed.
         path: To be followed; None if a pose is to be reached.
-        upright: The tool's z axis leans at most :data:`UPRIGHT` from straight down on the whole way.
     """
 
     task: str
@@ -52,7 +50,6 @@ class Case:
     rows: Task
     goal: Array | None = None
     path: Path | None = None
-    upright: bool = False
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON data: everything that defines it."""
@@ -67,7 +64,6 @@ class Case:
             "rows": self.rows.to_dict(),
             "goal": None if self.goal is None else self.goal.tolist(),
             "path": corners,
-            "upright": self.upright,
         }
 
 
@@ -204,24 +200,14 @@ def _wipe(draw: Draw, task: str, rng: Rng) -> Case:
 
 
 @_again
-def _upright(draw: Draw, task: str, rng: Rng) -> Case:
-    """From one upright configuration to the position of another, upright all the way."""
-    degraded = draw_failure(draw.arm, 2, rng)
-    limits = _limits(degraded)
-    at, there = (draw.pointing_down(*limits, rng) for _ in range(2))
-    goal = draw.arm.forward_kinematics(there)
-    return Case(task, degraded, at, rows=as_task(draw.arm, "pose"), goal=goal, upright=True)
-
-
-@_again
 def _tray(draw: Draw, task: str, rng: Rng) -> Case:
-    """0.3 m on the level, upright; turning about the vertical is free."""
+    """0.3 m on the level, the tool straight down; turning about the vertical is free."""
     degraded = draw_failure(draw.arm, 2, rng)
     at = draw.pointing_down(*_limits(degraded), rng)
     here = draw.arm.forward_kinematics(at)
     angle = rng.uniform(0, 2 * np.pi)
     way = 0.3 * np.array([np.cos(angle), np.sin(angle), 0.0])
-    return Case(task, degraded, at, rows=as_task(draw.arm, "pointing"), path=line(here, _moved(here, way)), upright=True)
+    return Case(task, degraded, at, rows=as_task(draw.arm, "pointing"), path=line(here, _moved(here, way)))
 
 
 def _moved(pose: Array, way: Array) -> Array:
@@ -240,6 +226,5 @@ TASKS: dict[str, Callable[[Draw, str, Rng], Case]] = {
     "line": _line,
     "drawer": _line,
     "wipe": _wipe,
-    "upright": _upright,
     "tray": _tray,
 }

@@ -13,17 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arms.serial import from_dict
+from holdfast.bench import methods
+from holdfast.bench.cases import Case, Draw
+from holdfast.bench.judge import trouble
 from holdfast.cell.cell import Cell
 from holdfast.clearance.choice import chosen_clearance
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
-from holdfast.bench import methods
-from holdfast.bench.cases import Case, Draw
-from holdfast.bench.judge import trouble
+from holdfast.recovery.verdict import Answer
 from holdfast.studies.jobs.process import PlannedJob
 
 Rows = dict[str, NDArray[Any]]
-TROUBLES = ("", "none", "start", "lock", "limits", "goal", "path", "upright", "contact")
+VERDICTS: tuple[Answer, ...] = ("solved", "proved infeasible", "argued infeasible", "undecided")
+TROUBLES = ("", "none", "start", "lock", "limits", "goal", "path", "contact")
 
 
 def digest(case: Case) -> int:
@@ -52,7 +54,7 @@ class FailActiveJob(PlannedJob[Draw]):
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.engine.Job`."""
-        verdicts = ", ".join(f"{int(v)} {v.phrase}" for v in methods.Verdict)
+        verdicts = ", ".join(f"{k} {name}" for k, name in enumerate(VERDICTS))
         return [
             Column("case", "int64", (), units="1", about="digest of the case"),
             Column("joints", "uint8", (("kind", 3),), units="1", about="how many are locked, have a smaller range, are slower"),
@@ -71,9 +73,9 @@ class FailActiveJob(PlannedJob[Draw]):
             limit = methods.Limit.of(self.plan["seconds"])
             attempt = method(case, draw.clearance, limit, np.random.default_rng([chunk.seed, row]))
             found["seconds"].append(time.perf_counter() - limit.begin)
-            solved, motion = attempt.verdict == methods.Verdict.SOLVED, attempt.motion
+            solved, motion = attempt.verdict == "solved", attempt.motion
             found["trouble"].append(TROUBLES.index(trouble(case, motion if solved else None, draw.clearance)))
-            found["verdict"].append(int(attempt.verdict))
+            found["verdict"].append(VERDICTS.index(attempt.verdict))
             found["case"].append(digest(case))
             d = case.degraded
             found["joints"].append([len(d.locked), len(d.ranges), len(d.speeds)])

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
+from holdfast.bench.cases import Case
 from holdfast.clearance.clearance import Clearance
-from holdfast.bench.cases import UPRIGHT, Case
 
 Array = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ def trouble(case: Case, motion: Motion | None, clearance: Clearance | None) -> s
     """Why the motion does not do the case, in a word; nothing if it does.
 
     Looked at every 2 mrad or 2 mm of a joint: rows within 1 mm and 0.5 deg (of the goal, or of the path at every instant),
-    limits, locks and start exact, upright, and clear by the exact sign.
+    limits, locks and start exact, and clear by the exact sign.
 
     Raises:
         HoldfastError: The extra ``cell`` is not installed, which the exact sign needs.
@@ -65,8 +65,6 @@ def trouble(case: Case, motion: Motion | None, clearance: Clearance | None) -> s
         wanted = case.path.pose(np.interp(at[on] - motion.first, np.arange(len(motion.share)), motion.share))
         if not _met(case, poses[on], wanted).all():
             return "path"
-    if case.upright and (poses[:, 2, 2] > -np.cos(UPRIGHT + _ROUND)).any():
-        return "upright"
     if clearance is not None and not clearance.sign(q).all():
         return "contact"
     return ""

@@ -11,17 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
+from holdfast.bench.cases import Case
+from holdfast.bench.judge import NEAR, TURN, Motion, trouble
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError
-from holdfast.bench.cases import UPRIGHT, Case
-from holdfast.bench.judge import NEAR, TURN, Motion, trouble
 from holdfast.paths.path import line
-from holdfast.recovery import keep
 from holdfast.recovery.goals import configurations_of
-from holdfast.recovery.recovery import Verdict
 from holdfast.recovery.routes import Metric, Space, find_route
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.search import recover
+from holdfast.recovery.verdict import Answer
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator
@@ -43,7 +42,7 @@ class Attempt:
         motion: What it gives, if anything.
     """
 
-    verdict: Verdict
+    verdict: Answer
     motion: Motion | None = None
 
 
@@ -80,17 +79,16 @@ def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) ->
         task=case.rows,
         path=case.path,
         clearance=False if clearance is None else clearance,
-        keep=keep.upright(UPRIGHT) if case.upright else None,
         samples=0,
         starts=STARTS,
         time_limit=limit.seconds,
         seed=int(rng.integers(2**31)),
     )
     if not answer.ok:
-        return Attempt(answer.verdict)
+        return Attempt(answer.verdict.answer)
     along = next((leg for leg in answer.legs if leg.name == "along the path"), None)
     share = np.zeros(0) if along is None or answer.rest is None else answer.rest.share
-    return Attempt(answer.verdict, Motion(answer.q, first=0 if along is None else along.first, share=share))
+    return Attempt(answer.verdict.answer, Motion(answer.q, first=0 if along is None else along.first, share=share))
 
 
 def _differential(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng, restarts: int = 1) -> Attempt:
@@ -100,8 +98,8 @@ def _differential(case: Case, clearance: Clearance | None, limit: Limit, rng: Rn
             break
         motion = _followed(case, way)
         if motion is not None and not trouble(case, motion, clearance):
-            return Attempt(Verdict.SOLVED, motion)
-    return Attempt(Verdict.UNDECIDED)
+            return Attempt("solved", motion)
+    return Attempt("undecided")
 
 
 def _with_restarts(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> Attempt:
@@ -163,10 +161,10 @@ def _rrt_connect(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng
     del limit  # of one search; it is bounded by its rounds
     found = _one_goal(case, clearance, rng)
     if found is None:
-        return Attempt(Verdict.UNDECIDED)
+        return Attempt("undecided")
     space, metric, goal = found
     route = find_route(space, metric, case.at, goal[None], 1, rng)
-    return Attempt(Verdict.UNDECIDED) if route is None else Attempt(Verdict.SOLVED, Motion(route.q, share=np.zeros(0)))
+    return Attempt("undecided") if route is None else Attempt("solved", Motion(route.q, share=np.zeros(0)))
 
 
 def _ompl(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> Attempt:
@@ -175,7 +173,7 @@ def _ompl(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> At
 
     found = _one_goal(case, clearance, rng)
     if found is None:
-        return Attempt(Verdict.UNDECIDED)
+        return Attempt("undecided")
     space, _, goal = found
     moves = np.flatnonzero(space.free)
     util.setLogLevel(util.LOG_ERROR)
@@ -201,9 +199,9 @@ def _ompl(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> At
     setup.setPlanner(geometric.RRTConnect(setup.getSpaceInformation()))
     setup.solve(limit.seconds)
     if not setup.haveExactSolutionPath():
-        return Attempt(Verdict.UNDECIDED)
+        return Attempt("undecided")
     q = np.stack([whole(state) for state in setup.getSolutionPath().getStates()])
-    return Attempt(Verdict.SOLVED, Motion(q, share=np.zeros(0)))
+    return Attempt("solved", Motion(q, share=np.zeros(0)))
 
 
 Method = Callable[[Case, Clearance | None, Limit, Rng], Attempt]

@@ -15,6 +15,9 @@ from holdfast import registry
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arms.serial import to_dict
+from holdfast.bench import methods
+from holdfast.bench.cases import TASKS
+from holdfast.bench.job import VERDICTS, FailActiveJob, digest
 from holdfast.cell.cell import Cell, as_cell
 from holdfast.clearance.choice import CellLike
 from holdfast.engine.job import Cell as StudyCell
@@ -22,12 +25,8 @@ from holdfast.engine.runner import Runner, Stop, Threads
 from holdfast.engine.study import Study
 from holdfast.engine.work import Progress
 from holdfast.errors import InputError, StoreError
-from holdfast.bench import methods
-from holdfast.bench.cases import TASKS
-from holdfast.bench.job import FailActiveJob
 from holdfast.files.output import replaced
 from holdfast.probability.intervals import Interval
-from holdfast.recovery.recovery import Verdict
 from holdfast.result import Result
 from holdfast.studies.results import chunks
 
@@ -131,17 +130,15 @@ def _rows(study: Study, cell: int) -> Rows:
 
 
 def _proofs(rows: Rows) -> set[int]:
-    return set(rows["case"][rows["verdict"] == int(Verdict.PROVED_INFEASIBLE)].tolist())
+    return set(rows["case"][rows["verdict"] == VERDICTS.index("proved infeasible")].tolist())
 
 
 def _score(label: dict[str, Any], rows: Rows, proofs: set[int]) -> Score:
     verdict = rows["verdict"]
-    good = (verdict == int(Verdict.SOLVED)) & (rows["trouble"] == 0)
+    good = (verdict == 0) & (rows["trouble"] == 0)
     infeasible = np.isin(rows["case"], list(proofs))
-    proved, argued = (
-        int(np.count_nonzero(verdict == int(v))) for v in (Verdict.PROVED_INFEASIBLE, Verdict.ARGUED_INFEASIBLE)
-    )
-    refused = int(np.count_nonzero((verdict == int(Verdict.SOLVED)) & ~good))
+    _, proved, argued, _ = (int(np.count_nonzero(verdict == k)) for k in range(len(VERDICTS)))
+    refused = int(np.count_nonzero((verdict == 0) & ~good))
     solved, cases = int(np.count_nonzero(good)), len(verdict)
     return Score(
         task=label["task"],
@@ -251,11 +248,7 @@ def _write_cases(study: Study, cells: Sequence[StudyCell], seed: int) -> None:
         seen.add(key)
         for row in range(cell.rows):
             case = job.case(seed, row)
-            lines.append(json.dumps({"number": row, "cell": cell.labels["around"], "digest": _hex(case), **case.to_dict()}))
+            lines.append(
+                json.dumps({"number": row, "cell": cell.labels["around"], "digest": f"{digest(case):016x}", **case.to_dict()})
+            )
     replaced(file, "\n".join(lines) + "\n")
-
-
-def _hex(case: Any) -> str:
-    from holdfast.bench.job import digest
-
-    return f"{digest(case):016x}"

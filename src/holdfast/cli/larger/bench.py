@@ -25,8 +25,12 @@ def _root() -> None:
 @command.command("fail-active")
 def fail_active(
     arm: ArmArgument = "panda",
-    out: Annotated[Path, typer.Option("--out", help="Folder for the cases and results.", show_default=False)] = Path("fail-active"),
-    cases: Annotated[int, typer.Option("--cases", min=1, help="Cases of each task that reaches a pose; of the others a tenth.")] = 1000,
+    out: Annotated[Path, typer.Option("--out", help="Folder for the cases and results.", show_default=False)] = Path(
+        "fail-active"
+    ),
+    cases: Annotated[
+        int, typer.Option("--cases", min=1, help="Cases of each task that reaches a pose; of the others a tenth.")
+    ] = 1000,
     task: Annotated[
         list[str] | None, typer.Option("--task", help="Only this one; may be given again.", show_default=False)
     ] = None,
@@ -46,7 +50,7 @@ def fail_active(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, upright, tray.
+    """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, tray.
 
     Ctrl-C stops after the current cases; the same command resumes.
 

@@ -101,11 +101,24 @@ def story(found: FailActive) -> Story:
         f"Cases solved although they were proved infeasible: {wrong or 'none'}.",
     ]
     facts = [
-        (percent(s.success_of_feasible.value), f"{place(s)}, not proved infeasible") for s in best[:4] if s.success_of_feasible.value
+        (percent(s.success_of_feasible.value), f"{place(s)}, not proved infeasible")
+        for s in best[:4]
+        if s.success_of_feasible.value
     ]
     figure = ("How the cases ended", "By task and planner; the line is the exact 95 % interval of the share that is solved.")
     method = [
-        ("Cases", f"{counted(sum(s.cases for s in found.scores), 'case')} with all planners, seed {found.study.seed}; in cases.jsonl"),
+        (
+            "Cases",
+            f"{counted(sum(s.cases for s in found.scores), 'case')} with all planners, seed {found.study.seed}; in cases.jsonl",
+        ),
         ("Times", "measured, on one thread"),
     ]
-    return Story("Fail-active suite", answer, about=found.describe()[0], facts=facts, lines=lines, figures={"endings": figure}, method=method)
+    return Story(
+        "Fail-active suite",
+        answer,
+        about=found.describe()[0],
+        facts=facts,
+        lines=lines,
+        figures={"endings": figure},
+        method=method,
+    )
