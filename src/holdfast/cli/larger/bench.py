@@ -11,8 +11,7 @@ import holdfast as hf
 from holdfast.cli.clearance import CellOption
 from holdfast.cli.larger.study import chunks_progress, stopping
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
-from holdfast.present.printing import said
-from holdfast.present.results import printed
+from holdfast.present.results import printed, said
 
 command = typer.Typer(name="bench", help="Suites of cases, for comparing planners.", no_args_is_help=True)
 
