@@ -36,14 +36,12 @@ def the_line():
 
 def random_line(generator):
     """0.4 to 1 m, in front of the arm, with a random orientation that stays the same."""
-    from holdfast.arm.poses import rotations_of_quaternions
-
-    quaternion = generator.normal(size=4)
+    rotation = np.linalg.qr(generator.normal(size=(3, 3)))[0]
     way = generator.normal(size=3)
     way *= generator.uniform(0.4, 1.0) / np.linalg.norm(way) / 2
     middle = generator.uniform([0.25, -0.3, 0.2], [0.6, 0.3, 0.8])
     begin = np.eye(4)
-    begin[:3, :3] = rotations_of_quaternions(quaternion[None] / np.linalg.norm(quaternion))[0]
+    begin[:3, :3] = rotation * np.linalg.det(rotation)
     end = begin.copy()
     begin[:3, 3], end[:3, 3] = middle - way, middle + way
     return line(begin, end)

@@ -25,7 +25,7 @@ def beside(problem: Problem, best: Endurance, others: Sequence[Objective | str],
     """The result with the others beside it, each from its own best start.
 
     Raises:
-        InputError: A word that is none, or a measure of another arm.
+        InputError: An unknown word, or a measure of another arm.
     """
     found: list[Compared] = []
     for other in others:

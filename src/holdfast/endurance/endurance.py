@@ -43,7 +43,7 @@ class VelocityJump:
         linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
         mean_linear, mean_angular: Means over time and joints, weighted by the failure rates.
 
-    Source: Abdi and Nahavandi 2012, the jump of the end effector's velocity at a lock.
+    Source: the jump of the end effector's velocity at a lock, Abdi et al., Robotica 30, 2012 (read as an abstract).
     """
 
     linear: Array
@@ -69,7 +69,7 @@ class Found:
     Attributes:
         bound: No motion of the grid survives more: at every instant the best node, whether a motion leads there or not.
         interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
-            exceed them by the spacing from pose to pose, as nodes are no finer. NaN where there is none.
+            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
         spacing: Of the nodes, rad (and m).
         nodes: T arrays (P, n) of configurations, all that were found.
         curve: T arrays (P,) with the number of their curve.
@@ -94,7 +94,7 @@ class Compared:
         name: What made it.
         survival: As of :class:`Endurance`.
         curve: (T,) as there, at the same times.
-        off: Fraction of the samples at which it is off the path, or there is none; nothing is survived there.
+        off: Fraction of the samples at which it is off the path, or has no configuration; nothing is survived there.
     """
 
     name: str

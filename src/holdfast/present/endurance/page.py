@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from holdfast.files.output import put
 from holdfast.present import results
 from holdfast.report.figures import save_png
+from holdfast.report.maps import Strips, strip_figure
+from holdfast.report.motions import lines_figure
 from holdfast.report.scenes import Scale
-from holdfast.report.strips import Strips, lines_figure, strip_figure
 from holdfast.solvers import joint_space
 
 if TYPE_CHECKING:
