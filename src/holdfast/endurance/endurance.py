@@ -290,12 +290,14 @@ class Endurance(Result):
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         time, joint = drawn_locks(self._problem, locks, generator)
         survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint)
-        nearest = np.rint(np.interp(time, self.time, np.arange(len(self.time)))).astype(np.int64)
+        before = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2)
+        expected = self.survives[before, joint]
         return Injection(
             time=time,
             joint=joint,
             survived=survived,
-            expected=self.survives[nearest, joint],
+            expected=expected,
+            told=expected == self.survives[before + 1, joint],
             interval=Interval.of(float(survived.sum()), locks),
         )
 
@@ -357,7 +359,7 @@ class Endurance(Result):
             count, p = len(self.injected.time), self.injected.interval
             lines.append(
                 f"of {count} locks injected at random times {percent(p.value)} were survived ({percent(p.low)} to "
-                f"{percent(p.high)}, 95 %); the motion says the same of {percent(self.injected.alike)} of them"
+                f"{percent(p.high)}, 95 %), {percent(self.injected.alike)} of them as the motion says"
             )
         if self.never is not None:
             when, name = self.never
