@@ -67,7 +67,7 @@ class Found:
     """What a search over all motions of the grid knows.
 
     Attributes:
-        bound: No motion of the grid survives more: at every instant the best node, whether a motion leads there or not.
+        bound: No motion of the grid survives more: at every instant the best node that lies on any motion along the path.
         interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
             exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
         spacing: Of the nodes, rad (and m).

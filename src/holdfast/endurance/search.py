@@ -119,7 +119,7 @@ def endure(
     motions = [None if front.ended is not None else front.motion() for front in fronts]
     gathered = [np.nan if m is None else sum(float(g[k]) for g, k in zip(gains, m, strict=True)) / whole for m in motions]
     known = Found(
-        bound=float(sum(g.max() for g in gains)) / whole,
+        bound=float(sum(g[some].max() for g, some in zip(gains, fronts[1].on_motions(), strict=True))) / whole,
         interval=(gathered[0], gathered[1]),
         spacing=spacing,
         nodes=[x.q for x in nodes],
