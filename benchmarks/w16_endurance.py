@@ -36,12 +36,14 @@ def the_line():
 
 def random_line(generator):
     """0.4 to 1 m, in front of the arm, with a random orientation that stays the same."""
-    rotation = np.linalg.qr(generator.normal(size=(3, 3)))[0]
+    from scipy.spatial.transform import Rotation
+
+    quaternion = generator.normal(size=4)
     way = generator.normal(size=3)
     way *= generator.uniform(0.4, 1.0) / np.linalg.norm(way) / 2
     middle = generator.uniform([0.25, -0.3, 0.2], [0.6, 0.3, 0.8])
     begin = np.eye(4)
-    begin[:3, :3] = rotation * np.linalg.det(rotation)
+    begin[:3, :3] = Rotation.from_quat(quaternion).as_matrix()
     end = begin.copy()
     begin[:3, 3], end[:3, 3] = middle - way, middle + way
     return line(begin, end)

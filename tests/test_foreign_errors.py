@@ -136,7 +136,8 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "recover": (
             hf.recover,
             {**at_planar, "locked": {"joint2": 0.6}, "at": q, "goal": [0.4, 0.6, 0.8], "clearance": False, "margin": 0.0}
-            | {"metric": "travel", "weights": None, "region": None, "samples": 0, "starts": 4, "tries": 0, "seed": 0},
+            | {"metric": "travel", "weights": None, "region": None, "samples": 0, "starts": 4, "tries": 0, "seed": 0}
+            | {"time_limit": 5.0},
         ),
         "self_motion": (hf.self_motion, {**at_planar, "target": target, "spacing": 0.3, "seed": 0, "starts": 4}),
         "simulate": (

@@ -212,6 +212,8 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
 
 CALLS = {
     "assess": ("planar-3r", "--poses", 5),
+    "compare-laws": ("planar-3r", "--motions", 2),
+    "convergence-map": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
     "endure": ("panda", "line.yaml"),
     "follow": ("panda", "line.yaml", "--minimise", "torque"),
     "free-swing": ("panda", "--q", "0 -0.2 0 -1.6 0 1.6 0.8", "--joint", 2),

@@ -59,7 +59,7 @@ VALUES = named(
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
-        "recovery": "Leg RestOfPath RowsGivenUp",
+        "recovery": "Leg RestOfPath RowsGivenUp Verdict Verification",
         "shapes": "Piece",
         "simulation": "Path",
         "solvers": "Component FibrePath",

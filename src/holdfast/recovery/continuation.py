@@ -61,6 +61,15 @@ class RestOfPath:
         lost = self.share[~self.found]
         return float(lost[0]) if lost.size else None
 
+    @property
+    def why(self) -> str:
+        """Why it was not finished, a phrase."""
+        if self.cut_off:
+            return "motions along it exist, but no route from here to the beginning of any was found"
+        if self.first_lost is not None:
+            return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
+        return "each of its poses is reached on its own, but no continuous motion through all of them was found"
+
     def describe(self) -> str:
         """One sentence for people."""
         if self.finished:
@@ -68,13 +77,7 @@ class RestOfPath:
                 f"The rest of the tool path can be finished: {len(self.q)} waypoints, off the path by at most "
                 f"{self.deviation:.2g} (m and rad) between them."
             )
-        if self.cut_off:
-            why = "motions along it exist, but no route from here to the beginning of any was found"
-        elif self.first_lost is not None:
-            why = f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
-        else:
-            why = "each of its poses is reached on its own, but no continuous motion through all of them was found"
-        text = f"The rest of the tool path was not finished: {why}; the best motion gets to {100 * self.furthest:.1f} %."
+        text = f"The rest of the tool path was not finished: {self.why}; the best motion gets to {100 * self.furthest:.1f} %."
         if self.given_up is not None:
             text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
         return text
@@ -86,7 +89,7 @@ def rest_of_path(
     """Follow a path from configurations of its first pose; also every motion (S, n) found, the shortest first."""
     share = _samples(path)
     poses = path.pose(share)
-    found = np.array([_reached(solver, space, pose, at, rng) for pose in each("poses of the path", poses)])
+    found = np.array([not space.spent and _reached(solver, space, pose, at, rng) for pose in each("poses of the path", poses)])
     first = configurations_of(solver, space, metric, poses[0], at, starts, rng)
     kept = np.ones((len(first), solver.rows.m))
     q, last = _tracked(solver, space, poses, first, kept)
@@ -107,8 +110,8 @@ def rest_of_path(
         motions = _by_length(metric, [q[:, k] for k in whole])
         return _with(made, solver, path, motions[0], np.ones(solver.rows.m), None), motions
     for size in range(1, solver.rows.m):
-        sets = subsets(solver.rows.m, size, [])
-        best = _without(solver, space, poses, at, sets, rng)
+        sets = [] if space.spent else subsets(solver.rows.m, size, [])
+        best = _without(solver, space, poses, at, sets, rng) if sets else None
         if best:
             given_up, motion = best
             mask = np.ones(solver.rows.m)
@@ -143,7 +146,7 @@ def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: 
     last = np.zeros(len(first), dtype=np.int64)
     alive = np.arange(len(first))
     for k in each("waypoints", range(1, len(poses)), most=True):
-        if not alive.size:
+        if not alive.size or space.spent:
             break
         before = q[k - 1, alive]
         target = np.repeat(poses[k][None], len(alive), axis=0)

@@ -113,7 +113,7 @@ def rows_to_give_up(
     rows, found, minimal = solver.rows, [], list[tuple[int, ...]]()
     for size in range(1, rows.m):
         sets = subsets(rows.m, size, minimal)
-        if not sets:
+        if not sets or space.spent:
             break
         begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
         owner = np.repeat(np.arange(len(sets)), len(begin))

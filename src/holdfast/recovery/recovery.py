@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,8 @@ from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
 from holdfast.recovery.routes import MetricName
+from holdfast.recovery.verdict import ProofKind, Verdict
+from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
 from holdfast.words import capitalised
@@ -97,7 +100,8 @@ class Recovery(Result):
         degraded: What is left of the arm: each locked joint with its value, reduced ranges and speeds.
         at: (n,) where the arm is, rad and m.
         goal: What was asked for, for people.
-        goal_pose: (4, 4) of the end effector, m, world; None if only a tool path was asked for.
+        goal_pose: (4, 4) of the end effector, m, world: of several the one that the motion leads to, else the first; None if
+            only a tool path was asked for.
         task: Whose rows the end effector must meet.
         ending: :class:`holdfast.recovery.Ending`.
         reason: What is in the way, a sentence; empty if nothing is.
@@ -105,7 +109,10 @@ class Recovery(Result):
         legs: The parts of the motion, in order.
         given_up: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
-        proof: Why the goal cannot be reached, if that is proved; else None.
+        proof: Why not everything that was asked for can be done, if that is proved; else None.
+        proof_kind: Of the proof; see :class:`holdfast.recovery.Verdict`.
+        stopped: At which level the time limit was spent; empty if it was not.
+        verified: What other code finds of the motion; None if there is none.
         left: What is left of the workspace, if asked for.
         rest: What became of the tool path, if one was given.
         starts: Random starts of the search for configurations of the goal.
@@ -130,6 +137,9 @@ class Recovery(Result):
     given_up: RowsGivenUp | None = None
     choices: tuple[RowsGivenUp, ...] = ()
     proof: str | None = None
+    proof_kind: ProofKind | Literal[""] = ""
+    stopped: str = ""
+    verified: Verification | None = None
     left: WhatIsLeft | None = None
     rest: RestOfPath | None = None
     starts: int
@@ -157,8 +167,27 @@ class Recovery(Result):
 
     @property
     def ok(self) -> bool:
-        """True only if everything that was asked for is met."""
-        return self.ending == Ending.HOME
+        """True only if everything that was asked for is met, as other code found too."""
+        return self.verdict.solved
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether everything that was asked for can be done, and how that is known."""
+        if self.ending == Ending.HOME:
+            if self.verified is None or self.verified.ok:
+                return Verdict("solved")
+            return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
+        if self.ending in (Ending.START_OUTSIDE_LIMITS, Ending.START_TOO_CLOSE, Ending.LOCK_ELSEWHERE):
+            return Verdict("proved infeasible", self.reason, "start")
+        if self.proof_kind:
+            return Verdict("proved infeasible", self.proof or "", self.proof_kind)
+        if self.stopped:
+            return Verdict("undecided", f"the time limit was spent {self.stopped}")
+        if self.ending == Ending.NO_ROUTE_FOUND or (self.rest is not None and self.rest.cut_off):
+            return Verdict("undecided", "configurations were found, and the searches for a motion to them are spent")
+        if self.rest is not None and not self.rest.finished:
+            return Verdict("argued infeasible", self.rest.why)
+        return Verdict("argued infeasible", self.reason)
 
     def require_ok(self) -> Recovery:
         """Itself, or :class:`holdfast.HoldfastError` with the reason if anything was dropped."""
@@ -199,6 +228,7 @@ class Recovery(Result):
         lines = [
             f"{self.arm.title}, {self.degraded.describe()}; goal: {self.goal}",
             f"{capitalised(self.ending.phrase)}: {self.ending.sentence}",
+            f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.solved and self.verified is not None else ""),
         ]
         if self.reason:
             lines.append(self.reason)

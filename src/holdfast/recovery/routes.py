@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from typing import Literal
 
@@ -91,6 +92,7 @@ class Space:
 
     def __init__(self, arm: Arm, free: Flags, clearance: Clearance | None, margin: float, around: Array) -> None:
         self.arm, self.free, self.margin = arm, free, margin
+        self._until = np.inf
         self.clearance = clearance if clearance is not None and clearance.pair_names else None
         low, high = finite_limits(arm)
         self.low = np.where(free, np.minimum(low, around.min(axis=0)), around[0])
@@ -99,6 +101,15 @@ class Space:
         self._lower = np.where(arm.prismatic, self.low, arm.lower)
         self._upper = np.where(arm.prismatic, self.high, arm.upper)
         self._slopes = None if self.clearance is None else self.clearance.changes(self.low, self.high)
+
+    def stop_after(self, seconds: float) -> None:
+        """From now on :attr:`spent` is true once so many seconds have gone."""
+        self._until = time.monotonic() + seconds
+
+    @property
+    def spent(self) -> bool:
+        """The time for searches is over."""
+        return time.monotonic() >= self._until
 
     def inside(self, q: Array) -> Flags:
         """(N,) True within the limits, locked joints left aside."""
@@ -201,7 +212,7 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
     for _ in each("searches for a route", range(tries), most=True):
         length = np.inf if best is None else best.length
         some = np.flatnonzero(direct < length * (1 - 1e-9))
-        if not some.size:
+        if not some.size or space.spent:
             break
         found = _connect(space, metric, start, goals[some], rng)
         if found is None:
@@ -258,7 +269,7 @@ def _connect(space: Space, metric: Metric, start: Array, goals: Array, rng: np.r
     reach = _REACH * float(metric.length(np.where(space.free, space.high - space.low, 0.0)))
     forward = True
     for _ in each("rounds of a search for a route", range(_ROUNDS), most=True):
-        if len(here.nodes) + len(there.nodes) > _NODES:
+        if len(here.nodes) + len(there.nodes) > _NODES or space.spent:
             break
         grown, other = (here, there) if forward else (there, here)
         index, away = grown.nearest(space.sample(_BATCH, rng))
@@ -309,7 +320,7 @@ def _joined(space: Space, here: _Tree, there: _Tree, met: tuple[int, int]) -> tu
 def shortened(space: Space, metric: Metric, q: Array, rng: np.random.Generator) -> Array:
     """The way q (K, n) cut short: straight pieces between random points of it, as long as that gains."""
     idle = 0
-    while len(q) > 2 and idle < _IDLE:
+    while len(q) > 2 and idle < _IDLE and not space.spent:
         at = metric.along(q)
         ends = np.sort(rng.uniform(0, at[-1], (_CUTS, 2)), axis=1)
         # Some whole pieces too: from waypoint to waypoint.

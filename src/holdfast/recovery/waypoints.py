@@ -149,7 +149,7 @@ def check_waypoints(
     a = np.atleast_2d(arm.check_configurations(q))
     if not len(a) or not np.isfinite(a).all():
         raise InputError("waypoints must be one configuration or more of finite numbers")
-    fine = _between(a)
+    fine = finely(a)
     degraded = degraded_at(arm, locked, a[0])
     limits = arm if degraded is None else degraded.limited
     beyond = np.maximum(np.maximum(limits.lower - fine, fine - limits.upper).max(axis=0), 0.0)
@@ -187,8 +187,8 @@ def _nearest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
     return least, float(rooms.min()), clearance.pair_names[k] if k >= 0 else ""
 
 
-def _between(q: Array) -> Array:
-    """Configurations along the way, the waypoints among them."""
+def finely(q: Array) -> Array:
+    """Configurations along the way through q (K, n), at most 2 mrad or 2 mm of a joint apart, the waypoints among them."""
     parts = [q[:1]]
     for a, b in pairwise(q):
         count = max(int(np.ceil(float(np.abs(b - a).max()) / _FINE)), 1)

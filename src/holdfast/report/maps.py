@@ -1,9 +1,9 @@
-"""Maps over a projection: cells coloured by the average, or the share, of the points in them; and over time."""
+"""Maps over a projection: cells coloured by the average, or the share, of the points in them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, WIDTH, finished, plain, style
-from holdfast.report.palette import PALE
+from holdfast.report.figures import INK, WIDTH, finished, style
 from holdfast.report.scenes import Scale, finish_bar
 from holdfast.report.views import View
 
@@ -188,66 +187,3 @@ def _short(value: float) -> str:
         if abs(value) < 1e4
         else f"{value:.0e}"
     )
-
-
-# ---- over the time of a motion ---------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Strips:
-    """Values over time and place.
-
-    Attributes:
-        values: (T, B) in each of B bins, NaN where there is nothing.
-        title: One line.
-    """
-
-    values: Array
-    title: str
-
-
-def strip_figure(
-    time: Array, edges: Array, panels: Sequence[Strips], way: Array, *, scale: Scale, label: str, ylabel: str
-) -> Figure:
-    """Maps beside and below each other, on one scale.
-
-    Args:
-        time: (T,) s.
-        edges: (B + 1,) of the bins.
-        panels: The maps.
-        way: (T,) where the motion is.
-        scale: Of the colours.
-        label: Of the colour bar.
-        ylabel: Of the places.
-    """
-    across = min(4, len(panels))
-    down = -(-len(panels) // across)
-    with style():
-        figure = Figure(figsize=(WIDTH, 2.2 * down + 1.1))
-        axes = figure.subplots(down, across, squeeze=False, sharex=True, sharey=True)
-        for a in axes.ravel()[len(panels) :]:
-            a.set_visible(False)
-        for k, (a, panel) in enumerate(zip(axes.ravel(), panels, strict=False)):
-            _draw(a, time, edges, panel, way, scale)
-            if k % across == 0:
-                a.set_ylabel(ylabel)
-            if k >= len(panels) - across:
-                a.set_xlabel("time, s")
-                a.tick_params(labelbottom=True)
-        finish_bar(
-            figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * down, pad=0.015), label, scale
-        )
-        return finished(figure)
-
-
-def _draw(axes: Axes, time: Array, edges: Array, panel: Strips, way: Array, scale: Scale) -> None:
-    half = np.diff(time) / 2
-    between = np.concatenate([[time[0]], time[:-1] + half, [time[-1]]])
-    shown = scale.mappable
-    axes.set_facecolor(PALE)
-    axes.pcolormesh(between, edges, shown.to_rgba(panel.values.T) * np.isfinite(panel.values.T)[..., None], rasterized=True)
-    axes.plot(time, way, color="white", linewidth=2.6)
-    axes.plot(time, way, color=INK, linewidth=1.3)
-    axes.set_title(plain(panel.title), fontsize=9)
-    axes.grid(visible=False)
-    axes.set_xlim(time[0], time[-1])

@@ -10,8 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, legend_below, plain, style
-from holdfast.report.timelines import COLORS
+from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, plain, style
 from holdfast.report.views import View
 
 Array = NDArray[np.float64]
@@ -129,19 +128,3 @@ def _draw_view(axes: Axes, motion: Motion, view: View, wanted: str) -> None:
     axes.set_aspect("equal", adjustable="datalim")
     axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
     axes.margins(0.08)
-
-
-def lines_figure(time: Array, lines: Sequence[tuple[str, Array]], level: tuple[float, str] | None, ylabel: str) -> Figure:
-    """Lines over one time (T,), s, the first one strong, with their names below."""
-    with style():
-        figure = Figure(figsize=(WIDTH, 3.6))
-        axes = figure.subplots()
-        for k, (name, values) in enumerate(lines):
-            wide, above = (1.2, 2.0) if k else (2.2, 2.5)
-            axes.step(time, values, where="mid", color=COLORS[k], label=plain(name), linewidth=wide, zorder=above)
-        if level is not None:
-            axes.axhline(level[0], color=SOFT, linewidth=1.2, linestyle=(0, (1.2, 1.6)), label=plain(level[1]))
-        axes.set(xlabel="time, s", ylabel=ylabel, ylim=(-2, 102))
-        axes.set_xlim(0, float(time[-1]))
-        legend_below(figure, axes, 2)
-        return finished(figure)

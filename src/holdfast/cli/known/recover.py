@@ -54,8 +54,8 @@ def command(
         str | None,
         typer.Option(
             "--goal",
-            help="home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z. "
-            "Default: home; with --path none.",
+            help="home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
+            "';'. Default: home; with --path none.",
             show_default=False,
         ),
     ] = None,
@@ -82,6 +82,9 @@ def command(
     samples: Annotated[int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips what is left.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
+    time_limit: Annotated[
+        float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.", show_default=False)
+    ] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     clearance: apart.ClearanceOption = None,
     capsules: apart.CapsulesOption = None,
@@ -141,6 +144,7 @@ def command(
         samples=samples,
         starts=starts,
         tries=tries,
+        time_limit=time_limit,
         seed=seed,
     )
     files = [result.to_csv(csv)] if csv is not None and len(result.q) else []
@@ -171,12 +175,11 @@ def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
             f"--goal '{text}' is not known; write {', '.join({'home': 0, **arm.states})}, "
             f"'q:...' with {arm.n} joint values, or 'pose:...'"
         )
-    pose = read_pose(arm, "--goal", rest)
-    if pose.shape == (4, 4):
-        return pose, False
-    whole = np.eye(4)
-    whole[:3, 3] = pose
-    return whole, True
+    poses = [read_pose(arm, "--goal", part) for part in rest.split(";")]
+    whole = np.repeat(np.eye(4)[None], len(poses), axis=0)
+    for one, pose in zip(whole, poses, strict=True):
+        one[: len(pose), 3 if pose.ndim == 1 else slice(None)] = pose
+    return whole, any(pose.ndim == 1 for pose in poses)
 
 
 def _position_task(arm: Arm, task: Any) -> Any:

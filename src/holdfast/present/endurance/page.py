@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from holdfast.files.output import put
 from holdfast.present import results
+from holdfast.present.endurance.strips import Strips, lines_figure, strip_figure
 from holdfast.report.figures import save_png
-from holdfast.report.maps import Strips, strip_figure
-from holdfast.report.motions import lines_figure
 from holdfast.report.scenes import Scale
 from holdfast.solvers import joint_space
 

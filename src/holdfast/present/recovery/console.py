@@ -48,6 +48,16 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         "reason": recovery.reason,
         "given_up": _rows(recovery.given_up),
         "choices": [_rows(c) for c in recovery.choices],
+        "verdict": {"answer": recovery.verdict.answer, "why": recovery.verdict.why, "kind": recovery.verdict.kind or None},
+        "verified": None
+        if recovery.verified is None
+        else {
+            "ok": recovery.verified.ok,
+            "faults": recovery.verified.faults,
+            "exact_by": recovery.verified.exact_by,
+            "goal_miss": recovery.verified.goal_miss,
+            "path_miss": recovery.verified.path_miss,
+        },
         "proof": recovery.proof,
         "goal_configurations_found": recovery.found,
         "starts": recovery.starts,
@@ -81,7 +91,8 @@ def key_table(recovery: Recovery) -> Rows:
     """What came of it."""
     rows = [
         ["goal", recovery.goal],
-        ["ending", recovery.ending.name.lower().replace("_", " ")],
+        ["ending", recovery.ending.phrase],
+        ["verdict", recovery.verdict.answer],
         ["waypoints", str(len(recovery.q))],
     ]
     if recovery.legs:
@@ -111,6 +122,9 @@ def story(recovery: Recovery) -> Story:
     elif ending == Ending.HOME:
         answer += "; the arm is there already"
     answer += "."
+    if not recovery.ok:
+        kind = f" ({recovery.verdict.kind})" if recovery.verdict.kind else ""
+        answer += f" What was asked for as a whole is {recovery.verdict.answer}{kind}."
     facts = [(length, "length of the motion" if recovery.unit == "rad" else "duration of the motion")] if moves else []
     if moves:
         facts.append((f"{len(recovery.q)}", "waypoints, with straight lines in joint space between them"))
@@ -148,6 +162,7 @@ def story(recovery: Recovery) -> Story:
                 "Shortest",
                 "in joint space, 1 m of a slide as 1 rad" if recovery.unit == "rad" else "in time, within the velocity limits",
             ),
+            ("Verified", "there is no motion" if recovery.verified is None else str(recovery.verified)),
             ("Clearance", "not looked at" if recovery.clearance is None else shape_text(recovery.clearance, recovery.margin)),
         ],
         arm=arm,

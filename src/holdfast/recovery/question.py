@@ -1,0 +1,142 @@
+"""What is asked of a recovery: the goal, the rows that count, and whether the arm may start at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
+from holdfast.arm.task import Task, as_task, plane_normal
+from holdfast.arm.tree import listed
+from holdfast.clearance.clearance import Clearance
+from holdfast.errors import InputError
+from holdfast.failures import Degraded
+from holdfast.recovery.goals import RowsGivenUp
+from holdfast.recovery.recovery import Ending
+from holdfast.solvers import joint_space
+
+if TYPE_CHECKING:
+    from holdfast.paths.path import Path
+
+Array = NDArray[np.float64]
+
+SAME = 1e-6  # rad and m: a joint this near to its angle is there
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What the end effector, or the arm, should reach.
+
+    Attributes:
+        text: For people.
+        poses: (G, 4, 4) of the end effector, any of which will do.
+        q: (n,) the configuration, if that itself is the goal; else None.
+        lost: Joints locked elsewhere than in that configuration, or None.
+    """
+
+    text: str
+    poses: Array
+    q: Array | None = None
+    lost: RowsGivenUp | None = None
+
+
+def home_of(arm: Arm) -> tuple[Array, str]:
+    """Where home is, (n,), rad and m, and in words: the arm's state of this name, or every joint as near to 0 as it may be."""
+    if "home" in arm.states:
+        return arm.states["home"], "home"
+    q = np.clip(np.zeros(arm.n), arm.lower, arm.upper)
+    others = [name for name, value in zip(arm.joint_names, q, strict=True) if value]
+    return q, "all joints at 0" + (f", {', '.join(others)} at the limit nearest to it" if others else "")
+
+
+def task_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None) -> Task:
+    """The rows that count: those given, else the pose, or the position in a plane or along a path without orientations."""
+    if task is not None:
+        return as_task(arm, task)
+    flat = plane_normal(arm) is not None
+    whole = path is None or path.oriented
+    return as_task(arm, "planar" if flat else "pose" if whole else "position")
+
+
+def goal_of(
+    degraded: Degraded,
+    goal: ArrayLike | str | None,
+    by_hand: bool,
+    standing: Array,
+    clearance: Clearance | None,
+    margin: float,
+    path: Path | None,
+) -> Goal | None:
+    """What the goal means for the arm as it is left, or None for the end of the path.
+
+    Raises:
+        InputError: It cannot be read, is beyond the limits, or is not clear.
+    """
+    arm, free = degraded.arm, degraded.moves
+    if goal is None:
+        if path is None:
+            raise InputError("there is neither a goal nor a path; give goal='home', a pose, a configuration, or a path")
+        return None
+    if isinstance(goal, str):
+        if goal != "home" and goal not in arm.states:
+            known = listed(list({"home": 0, **arm.states}))
+            raise InputError(f"goal '{goal}' is not known; give {known}, a pose (4, 4) or a configuration ({arm.n},)")
+        q, text = (arm.states[goal], goal) if goal in arm.states else home_of(arm)
+    else:
+        given = np.asarray(goal, dtype=np.float64)
+        if given.ndim in (2, 3) and given.shape[-2:] == (4, 4) and given.size:
+            if not np.isfinite(given).all():
+                raise InputError("goal holds NaN or infinity; give a pose of finite numbers")
+            poses = check_poses(given.reshape(-1, 4, 4))
+            text = "a pose of the end effector" if len(poses) == 1 else f"any of {len(poses)} poses of the end effector"
+            return Goal(text, poses)
+        if given.shape != (arm.n,) or not np.isfinite(given).all():
+            raise InputError(
+                f"goal has shape {given.shape}; give 'home', a pose (4, 4), poses (G, 4, 4), or a configuration of {arm.n} "
+                "finite numbers"
+            )
+        text, q = "a configuration", given
+    beyond = [arm.joint_names[k] for k in np.flatnonzero((q < arm.lower) | (q > arm.upper))]
+    if beyond:
+        raise InputError(f"goal: joint '{beyond[0]}' is outside its limits there; give a configuration within them")
+    poses = arm.forward_kinematics(q)[None]
+    if by_hand:
+        return Goal(f"the end effector where it is at {text}", poses)
+    if clearance is not None and float(clearance.room(q)) < margin:
+        raise InputError(
+            f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"
+        )
+    away = np.abs(joint_space.difference(arm, q, np.where(free, np.clip(q, degraded.lo, degraded.hi), standing)))
+    lost = np.flatnonzero(np.where(free, away > 0, away > SAME))
+    if not lost.size:
+        return Goal(text, poses, np.where(free, q, standing))
+    units = ["m" if arm.prismatic[k] else "rad" for k in lost]
+    rows = RowsGivenUp(tuple(arm.joint_names[k] for k in lost), tuple(away[lost].tolist()), tuple(units))
+    return Goal(text, poses, None, rows)
+
+
+def trouble_of(degraded: Degraded, at: Array, clearance: Clearance | None, margin: float) -> tuple[Ending, str] | None:
+    """Why the arm may not even start, or None."""
+    arm, value = degraded.arm, degraded.lo
+    for k in np.flatnonzero(~degraded.moves & (np.abs(at - value) > SAME)):
+        return Ending.LOCK_ELSEWHERE, (
+            f"{arm.joint_names[k]} is said to be locked at {value[k]:.6g} and is at {at[k]:.6g} {arm.joints[k].unit}; "
+            "give the angle at which it is, or leave the angle out"
+        )
+    for joint, x in zip(degraded.limited.joints, at, strict=True):
+        if not joint.lower <= x <= joint.upper:
+            reduced = joint.name in degraded.ranges
+            return Ending.START_OUTSIDE_LIMITS, (
+                f"{joint.name} is at {x:.6g} {joint.unit}, its limits are {'now ' * reduced}{joint.lower:.6g} to "
+                f"{joint.upper:.6g}; if it can move there, widen {'its range' if reduced else 'the limits of the arm'}"
+            )
+    if clearance is not None and clearance.pair_names and float(clearance.room(at)) < margin:
+        own = int(clearance.closest_pair(at)) < len(clearance.pairs)
+        advice = "or no clearance" if own else "or move the object"
+        return Ending.START_TOO_CLOSE, f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, {advice}"
+    return None

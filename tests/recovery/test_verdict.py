@@ -1,0 +1,159 @@
+"""What a recovery amounts to, and the other code that says whether its motion does what was asked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.arm.task import as_task
+from holdfast.recovery import Ending, search
+from holdfast.recovery.proofs import telling_first
+from holdfast.recovery.rows import row_solver
+from holdfast.recovery.verification import Verification, row_errors, tool_poses, verify
+
+HOME = np.array([0.3, 0.6, 0.9])
+
+
+@pytest.fixture(scope="module")
+def three():
+    return hf.arms.load("planar-3r")
+
+
+@pytest.fixture(scope="module")
+def moved(three):
+    """A recovery that is solved."""
+    return hf.recover(three, ["joint2"], HOME, goal=three.forward_kinematics([0.9, 0.6, 0.1]), task="planar", samples=0)
+
+
+def test_the_chain_of_matrices_is_the_arm(rng):
+    arm = oracles.random_arm(rng, types="RRPRRCR")
+    q = rng.uniform(-1, 1, (20, arm.n))
+    np.testing.assert_allclose(tool_poses(arm, q), oracles.forward(arm, q), atol=1e-12)
+    poses = oracles.forward(arm, q + rng.normal(0, 0.4, q.shape))
+    for task in ("pose", "pointing", "position", ["vx", "vz", "wx"]):
+        solver = row_solver(arm, as_task(arm, task))
+        np.testing.assert_allclose(row_errors(arm, solver.rows, q, poses), solver.errors(q, poses), atol=1e-9)
+
+
+def test_what_is_solved_is_verified_by_other_code(moved):
+    assert str(moved.verdict) == "solved"
+    assert moved.ok
+    assert moved.verified is not None
+    assert moved.verified.goal_miss == pytest.approx(0, abs=3e-6)
+    assert moved.verified.looked_at >= np.abs(np.diff(moved.q, axis=0)).max() / 2e-3
+
+
+@pytest.mark.parametrize(
+    ("spoil", "fault"),
+    [
+        (lambda q: q + np.array([0, 1e-11, 0]), "joint2 is locked and moves"),
+        (lambda q: np.concatenate([q, q[-1:] + np.array([1e-3, 0, 0])]), "the goal is missed by"),
+        (lambda q: np.concatenate([q[:1], [[9.0, 0.6, 0.1]], q[1:]]), "joint1 leaves its limits by"),
+        (lambda q: q + np.array([1e-3, 0, 0]), "does not begin where the arm is"),
+    ],
+)
+def test_a_spoilt_motion_is_refused(moved, three, spoil, fault):
+    arm = replace(three, joints=tuple(replace(j, lower=-3.0, upper=3.0) for j in three.joints))
+    bad = hf.Degraded(arm, locked={"joint2": 0.6})
+    rows = row_solver(arm, moved.task).rows
+    assert verify(bad, HOME, moved.q, rows=rows, goals=moved.goal_pose[None]).ok
+    found = verify(bad, HOME, spoil(moved.q), rows=rows, goals=moved.goal_pose[None])
+    assert fault in str(found)
+
+
+def test_a_motion_into_an_object_is_refused(moved, three):
+    tip = three.forward_kinematics(moved.q.mean(axis=0))[:3, 3]
+    shape = hf.Clearance(three, hf.Capsules.along(three, 0.02), hf.Cell([hf.cell.Sphere("ball", 0.05, pose=tip)]), itself=False)
+    rows = row_solver(three, moved.task).rows
+    found = verify(moved.degraded, HOME, moved.q, rows=rows, clearance=shape)
+    assert not found.ok
+    assert "ball" in str(found)
+
+
+def test_a_motion_that_other_code_refuses_is_no_answer(three, monkeypatch):
+    fault = Verification(faults=("it is wrong",), looked_at=1, exact_by="", goal_miss=None, path_miss=None)
+    monkeypatch.setattr(search, "verify", lambda *_, **__: fault)
+    found = hf.recover(three, ["joint2"], HOME, goal=three.forward_kinematics([0.9, 0.6, 0.1]), task="planar", samples=0)
+    assert found.ending == Ending.HOME
+    assert (found.ok, found.verdict.answer) == (False, "undecided")
+    assert "it is wrong" in found.verdict.why
+    with pytest.raises(hf.HoldfastError):
+        found.require_ok()
+
+
+def placed(x, y, turn=0.0):
+    pose = np.eye(4)
+    c, s = np.cos(turn), np.sin(turn)
+    pose[:2, :2], pose[:2, 3] = [[c, -s], [s, c]], [x, y]
+    return pose
+
+
+@pytest.mark.parametrize(
+    ("locked", "asked", "answer", "kind"),
+    [
+        (["joint2"], {"goal": placed(2.95, 0)}, "proved infeasible", "reach bound"),
+        (["joint2"], {"goal": np.array([0.3, 0.9, 0.9])}, "proved infeasible", "limits"),
+        ({"joint2": 0.7}, {}, "proved infeasible", "start"),
+        (
+            ["joint2"],
+            {"goal": None, "path": hf.paths.line([1.5, 1.5, 0], [2.95, 0.3, 0])},
+            "proved infeasible",
+            "a pose of the path",
+        ),
+        (["joint2"], {"goal": placed(1.5, 0.4, 2.0), "task": "planar-pose"}, "argued infeasible", ""),
+    ],
+)
+def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
+    found = hf.recover(three, locked, HOME, samples=0, **asked)
+    assert (found.verdict.answer, found.verdict.kind) == (answer, kind), found.verdict
+    assert not found.ok
+    assert found.verdict.why
+    assert f"verdict: {answer}" in " ".join(found.describe())
+    assert found.to_dict()["verdict"]["answer"] == answer
+    assert answer in found._presented("story").answer
+
+
+def test_a_spent_time_limit_is_undecided_and_says_at_which_level(three):
+    path = hf.paths.line([1.5, 1.5, 0], [1.2, 1.6, 0])
+    found = hf.recover(three, ["joint2"], HOME, goal=None, path=path, time_limit=1e-9, samples=0)
+    assert str(found.verdict) == "undecided: the time limit was spent following the tool path"
+    with pytest.raises(hf.InputError, match="time_limit is 0"):
+        hf.recover(three, ["joint2"], HOME, time_limit=0.0)
+
+
+def test_any_of_several_poses_will_do(three):
+    beyond, near, far = np.eye(4), three.forward_kinematics([0.5, 0.6, 0.9]), three.forward_kinematics([2.2, 0.6, 0.3])
+    beyond[0, 3] = 2.95
+    found = hf.recover(three, ["joint2"], HOME, goal=np.stack([beyond, far, near]), task="planar", samples=0)
+    assert found.ok
+    np.testing.assert_allclose(found.goal_pose, near)
+    np.testing.assert_allclose(oracles.forward(three, found.q[-1:])[0, :2, 3], near[:2, 3], atol=3e-6)
+    alone = hf.recover(three, ["joint2"], HOME, goal=near, task="planar", samples=0)
+    assert found.length == pytest.approx(alone.length, rel=1e-6)
+    none = hf.recover(three, ["joint2"], HOME, goal=np.stack([beyond, beyond]), task="planar", samples=0)
+    assert none.verdict.kind == "reach bound"
+    assert "any of 2 poses" in none.goal
+
+
+def test_the_poses_that_tell_most_come_first():
+    assert list(telling_first(9)) == [8, 0, 4, 2, 6, 1, 3, 5, 7]
+    for count in (1, 2, 3, 10, 57):
+        assert sorted(telling_first(count)) == list(range(count))
+
+
+def test_a_finished_path_is_verified_between_its_waypoints(three):
+    path = hf.paths.line(three.forward_kinematics(HOME)[:3, 3], [1.2, 1.6, 0])
+    found = hf.recover(three, ["joint2"], HOME, goal=None, path=path, samples=0)
+    assert found.ok, found.verdict
+    assert 0 < found.verified.path_miss < 1e-3
+    leg = found.legs[-1]
+    part = slice(leg.first, leg.last + 1)
+    bent = found.q.copy()
+    bent[(part.start + part.stop) // 2] += [1e-3, 0, 0]
+    rows = row_solver(three, found.task).rows
+    refused = verify(found.degraded, HOME, bent, rows=rows, along=(path, found.rest.share, part))
+    assert "the tool path is missed by" in str(refused)
