@@ -9,6 +9,7 @@ import pytest
 
 import holdfast as hf
 import oracles
+from holdfast.clearance.exact.engines import installed
 from holdfast.arm.task import as_task
 from holdfast.recovery import Ending, search
 from holdfast.recovery.proofs import telling_first
@@ -104,7 +105,7 @@ def placed(x, y, turn=0.0):
             "proved infeasible",
             "a pose of the path",
         ),
-        (["joint2"], {"goal": placed(1.5, 0.4, 2.0), "task": "planar-pose"}, "argued infeasible", ""),
+        (["joint2"], {"goal": placed(1.5, 0.4, 2.0), "task": "planar-pose"}, "proved infeasible", "boxes"),
     ],
 )
 def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
@@ -115,6 +116,35 @@ def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
     assert f"verdict: {answer}" in " ".join(found.describe())
     assert found.to_dict()["verdict"]["answer"] == answer
     assert answer in found._presented("story").answer
+
+
+@pytest.mark.skipif(not installed(), reason="no library for exact signs")
+def test_that_every_configuration_touches_something_is_a_proof(three):
+    """Two circles meet in two points, and the target is inside a ball."""
+    goal = placed(1.5, -1.0)
+    cell = hf.Cell([hf.cell.Sphere("ball", 0.2, pose=[1.5, -1.0, 0.0])])
+    found = hf.recover(three, ["joint2"], HOME, goal=goal, cell=cell, task="planar", samples=0)
+    assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "boxes")
+    assert "each of its 2 configurations touches something" in found.verdict.why
+
+
+def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
+    arm = hf.arms.load("panda")
+    for locks in (1, 2, 3):
+        joints = rng.choice(arm.n, locks, replace=False)
+        q, at = rng.uniform(arm.lower, arm.upper, (2, arm.n))
+        at[joints] = q[joints]
+        bad = hf.Degraded(arm, locked={int(k): q[k] for k in joints})
+        found = hf.recover(arm, bad, at, goal=arm.forward_kinematics(q), clearance=False, samples=0, starts=1, tries=0)
+        assert found.verdict.answer != "proved infeasible", found.verdict
+        assert found.ok or found.stopped or locks == 1, found.verdict  # one start seldom finds it: the boxes do
+
+
+def test_what_only_a_search_says_is_argued(three, monkeypatch):
+    monkeypatch.setattr(search, "listed", lambda *_: None)
+    found = hf.recover(three, ["joint2"], HOME, goal=placed(1.5, 0.4, 2.0), task="planar-pose", samples=0)
+    assert (found.verdict.answer, found.verdict.kind) == ("argued infeasible", "")
+    assert "in 256 starts, which proves nothing" in found.verdict.why
 
 
 def test_a_spent_time_limit_is_undecided_and_says_at_which_level(three):
