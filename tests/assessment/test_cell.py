@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -173,3 +175,27 @@ def test_the_report_and_the_numbers_say_what_is_in_the_way(run, cell, tmp_path):
         "--cell cell.yaml --no-clearance",
     ):
         assert part in page, part
+
+
+def test_a_run_resumes_with_the_same_files_elsewhere(arm, call, tmp_path):
+    def made(place, height=0.0):
+        folder = tmp_path / place
+        folder.mkdir()
+        np.save(folder / "scan.npy", np.array([[0.9, 0.9, height], [0.95, 0.9, 0.0]]))
+        (folder / "shape.yaml").write_text(f"radius: {WIDTH}\n")
+        objects = {"scan": {"points": "scan.npy", "radius": 0.05}}
+        return hf.Cell.from_dict({"name": "scanned", "objects": objects, "arm": {"shape": "shape.yaml"}}, folder)
+
+    call = {**call, "poses": 20, "clearance": False, "store": tmp_path / "run"}
+    first = hf.assess(arm, **call | {"cell": made("here")})
+    again = hf.assess(arm, **call | {"cell": made("there")})
+    np.testing.assert_array_equal(again.columns["q"], first.columns["q"])
+    with pytest.raises(StoreError, match="holds another run: its cell is"):
+        hf.assess(arm, **call | {"cell": made("else", height=0.1)})
+    # As it was stored when the path of the capsule file counted, relative to wherever the command ran.
+    said = json.loads((tmp_path / "run" / "run.json").read_text())
+    around = said["plan"]["cell"]
+    around["data"]["arm"]["shape"] = "shape.yaml"
+    around["sha256"] = again.plan.cell.digest_with("shape.yaml")
+    (tmp_path / "run" / "run.json").write_text(json.dumps(said))
+    np.testing.assert_array_equal(hf.load(tmp_path / "run").columns["q"], first.columns["q"])

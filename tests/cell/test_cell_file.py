@@ -235,3 +235,22 @@ def test_stl_files_are_read_without_a_package(tmp_path, monkeypatch):
         (tmp_path / "text.stl").write_text(wrong)
         with pytest.raises(hf.InputError, match="damaged"):
             mesh.read(tmp_path / "text.stl")
+
+
+def test_a_capsule_file_is_beside_the_cell_and_counts_by_its_content(tmp_path, monkeypatch):
+    arm = hf.arms.load("planar-2r")
+    for place, radius in (("here", 0.05), ("there", 0.05), ("wide", 0.06)):
+        (tmp_path / place).mkdir()
+        (tmp_path / place / "tip.yaml").write_text(f"radius: {radius}\n")
+        (tmp_path / place / "cell.yaml").write_text("objects: {ball: {sphere: 0.1}}\narm: {shape: tip.yaml}\n")
+    monkeypatch.chdir(tmp_path / "wide")
+    here, there, wide = (hf.Cell.load(tmp_path / place / "cell.yaml") for place in ("here", "there", "wide"))
+    assert hf.Clearance(arm, cell=hf.Cell([], shape=here.shape)).capsules.parts[0].radius == 0.05
+    assert here.digest == there.digest != wide.digest
+    file = here.save(tmp_path / "saved.yaml")[0]
+    assert "shape: here/tip.yaml" in file.read_text()
+    for back in (hf.Cell.load(file), hf.Cell.from_dict(here.to_dict())):
+        assert back.digest == here.digest
+    (tmp_path / "here" / "tip.yaml").unlink()
+    with pytest.raises(hf.InputError, match=r"capsule file '.*here.tip\.yaml' cannot be read"):
+        hf.Cell.load(tmp_path / "here" / "cell.yaml").digest  # noqa: B018

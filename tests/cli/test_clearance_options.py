@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import inspect
+from importlib import import_module
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import holdfast as hf
 from holdfast import Capsules, Clearance, arms
 from holdfast.cli.clearance import read_clearance
+from holdfast.cli.program import COMMANDS
 from holdfast.errors import InputError
 
 CLOSE = "box: {center: [0.2, 0.1, 0], size: [0.5, 0.5, 0]}\n"
@@ -203,3 +208,32 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
         read_clearance(*options, meshes=tmp_path / "none")
     with pytest.raises(InputError, match="'planar-3r' is from no URDF file"):
         read_clearance(arms.load("planar-3r"), *options[1:], meshes=meshes)
+
+
+CALLS = {
+    "assess": ("planar-3r", "--poses", 5),
+    "compare-laws": ("planar-3r", "--motions", 2),
+    "convergence-map": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
+    "endure": ("panda", "line.yaml"),
+    "follow": ("panda", "line.yaml", "--minimise", "torque"),
+    "free-swing": ("panda", "--q", "0 -0.2 0 -1.6 0 1.6 0.8", "--joint", 2),
+    "optimise": BEST[1:],
+    "recover": ("panda", "--lock", "panda_joint4=-1.2", "--goal", "0.5,0.2,0.4"),
+    "self-motion": ("planar-3r", "--target", "1.5,1.5"),
+    "simulate": ("planar-3r", "--start", "0 0.2 0.3", "--target", "1.2,1.2"),
+    "studio": ("panda",),
+}
+
+
+def test_every_command_with_a_cell_takes_the_folder_of_meshes():
+    for command, module in COMMANDS.items():
+        name, _, function = module.partition(":")
+        made = getattr(import_module(f"holdfast.cli.{name}"), function or "command")
+        assert (command in CALLS) == (callable(made) and "cell" in inspect.signature(made).parameters), command
+
+
+@pytest.mark.parametrize("command", CALLS)
+def test_a_folder_of_meshes_that_is_not_there_is_said(command, refused, bench, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("line.yaml").write_text("line: {from: {xyz: [0.5, 0, 0.4]}, to: {xyz: [0.5, 0.1, 0.4]}}\ntiming: {duration: 2}\n")
+    assert "the folder of meshes is" in refused(command, *CALLS[command], "--cell", bench, "--meshes", tmp_path / "none")

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import cells
 import holdfast as hf
 import oracles
+from holdfast.cell import Sphere
 from holdfast.convergence import detours
 from holdfast.convergence.detours import healthy_cost
 from holdfast.present.convergence import law_comparison as compare_laws_report
@@ -281,3 +283,47 @@ def test_a_motion_whose_steps_lead_nowhere_is_not_tried_again_for_each_piece(mon
     assert np.isnan(short.time[~same]).all()
     assert same.sum() == len(q0) - out_of_steps.sum()
     np.testing.assert_array_equal(short.deviation[same], whole.deviation[same])
+
+
+DISC_RADIUS, WIDTH = 0.15, 0.03
+BOUND = 0.01  # m: spheres that cover a capsule reach so far beyond it at most
+
+
+def test_what_runs_touch_is_what_plane_geometry_finds_in_their_replay(laws, motions, arm, tmp_path):
+    """Runs sampled finely, and the distance of three segments from a disc in closed form."""
+    at = (arm.forward_kinematics(motions.q0[0])[:2, 3] + motions.target[0, :2, 3]) / 2  # in the way of the first
+    cell = hf.Cell([Sphere("post", DISC_RADIUS, pose=cells.placed(*at, 0))], name="disc")
+    clear = hf.Clearance(arm, hf.Capsules.along(arm, WIDTH), itself=False)
+    some = {"failures": ["joint2"], "time_limit": 100.0}
+    count = 5
+    c = hf.compare_laws(laws, motions.q0[:count], motions.target[:count], clearance=clear, cell=cell, **some)
+    plain = hf.compare_laws(laws, motions.q0[:count], motions.target[:count], **some)
+    for name, runs in zip(c.names, c.runs, strict=True):
+        for k, failure in enumerate(c.failures):
+            case = c.case(name, failure)
+            np.testing.assert_array_equal(case.error, plain.case(name, failure).error)
+            for m in range(count):
+                path = runs.path(count * k + m, samples=3000, until=min(runs.time[count * k + m], 200.0))
+                gap = cells.from_disc([1, 1, 1], WIDTH, path.q, at, DISC_RADIUS).ravel()
+                if gap.min() < -1e-3 or gap.min() > BOUND:
+                    assert case.touched[m] == (gap.min() < 0)
+                contact = case.contacts[m]
+                if gap.min() < -1e-3:
+                    assert contact.time <= path.time[int((gap < 0).argmax())] + 1e-6
+                if contact is not None:
+                    assert contact.object == "post"
+                    assert np.interp(contact.time, path.time, gap) < BOUND
+    touched = np.array([[case.touched for case in (c.case(n, f) for f in c.failures)] for n in c.names])
+    assert touched[:, 0, 0].all()
+    row = next(r for r in c.table if (r["law"], r["failure"]) == (c.names[1], "joint2"))
+    assert row["touched"] == touched[1, 1].mean()
+    assert row["converged_clear"] == ((c.case(c.names[1], "joint2").code == 0) & ~touched[1, 1]).mean()
+    assert not {"touched", "clearance"} & {*plain.table[0], *plain.to_dict()}
+    assert c.to_dict()["clearance"]["cell"]["sha256"] == cell.digest
+    c.save(tmp_path)
+    rows = list(csv.DictReader((tmp_path / "runs.csv").read_text().splitlines()))
+    assert [bool(row["touched_at"]) for row in rows] == touched.ravel().tolist()
+    text = " ".join((tmp_path / "report.html").read_text().split())
+    check(text)
+    for part in ("What they touch on the way", "Contacts are reported, not enforced", cell.digest[:12], "lower bounds"):
+        assert part in text

@@ -7,8 +7,10 @@ import json
 import numpy as np
 import pytest
 
+import cells
 import holdfast as hf
 import oracles
+from holdfast.cell import Sphere
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.maps import shared
 from holdfast.probability.intervals import Interval
@@ -218,3 +220,33 @@ def test_motions_as_a_data_set(sampled):
         assert share == pytest.approx(sampled.shares()[name].value)
         assert np.array_equal(data.in_reach[..., k], sampled.in_reach[..., k])
     assert np.array_equal(data.q0.sel(joint=sampled.law.arm.joint_names[0]), sampled.q0[..., 0])
+
+
+def test_what_runs_touch_is_what_plane_geometry_finds_in_their_replay(tmp_path):
+    """Runs sampled finely, and the distance of three segments from a disc in closed form."""
+    arm, at, radius, width = hf.arms.load("planar-3r"), (0.9, 1.1), 0.3, 0.03
+    law = pseudoinverse(arm, "planar")
+    cell = hf.Cell([Sphere("post", radius, pose=cells.placed(*at, 0))], name="disc")
+    clear = hf.Clearance(arm, hf.Capsules.along(arm, width), itself=False)
+    call = {"configurations": 2, "time_limit": 100.0, "seed": 4}
+    m = hf.convergence_map(law, [1.5, 0.9], 3, clearance=clear, cell=cell, **call)
+    plain = hf.convergence_map(law, [1.5, 0.9], 3, **call)
+    np.testing.assert_array_equal(m.code, plain.code)
+    seen = 0
+    for p, c, k in np.argwhere(np.repeat(m.known[..., None], 4, axis=2)):
+        run = hf.simulate(law, m.q0[p, c], m.target[p, c], locked=[k] if k < 3 else [], time_limit=100.0, tolerance=1e-8)
+        gap = cells.from_disc([1, 1, 1], width, run.path(samples=1500).q, at, radius).min()
+        if gap < -1e-3 or gap > 0.01:  # spheres that cover a capsule reach a little beyond it
+            assert m.touched[p, c, k] == (gap < 0)
+            seen += 1
+    assert seen > 12
+    assert 0 < m.touched[m.known].mean() < 1
+    said = m.to_dict()
+    assert said["fractions"]["touched"]["none"]["fraction"] == m.values("touched")[:, -1].mean()
+    assert said["clearance"]["cell"]["sha256"] == cell.digest
+    assert not {"clearance"} & {*plain.to_dict()}
+    with pytest.raises(hf.InputError, match="outcome 'touched' is not known; use converged"):
+        plain.values("touched")
+    text = " ".join(m.report(tmp_path / "report.html").read_text().split())
+    for part in ("touch something", cell.digest[:12], "Contacts", "lower bounds"):
+        assert part in text

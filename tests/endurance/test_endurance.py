@@ -20,7 +20,7 @@ def test_a_lock_is_followed_as_far_as_the_closed_form_says(limits, rng):
     for _ in range(4):
         begin, end = rng.uniform(-2, 2, (2, 2))
         path = timed(begin, end)
-        problem = posed(machine, path, None, False, "on-path", None, 31, None, None, 0.0)
+        problem = posed(machine, path, None, False, "on-path", None, 31, None, None, 0.0, spacing=0.1, seed=0, starts=8)
         found = hf.solve_ik(machine, problem.lock.poses, seed=int(rng.integers(1 << 30)), task="planar", restarts=20)
         if not found.success.all():
             continue
@@ -156,6 +156,37 @@ def test_detours_survive_what_the_ranges_of_the_joints_say(narrow):
     assert wrong <= 0.01 * total
 
 
+def test_other_motions_beside_it(narrow):
+    """As if each had been made and judged by hand; where one is off the path it survives nothing."""
+    machine, path, _ = narrow
+    index = hf.indices.relative_manipulability(machine, "planar")
+    got = hf.endure(machine, path, samples=21, spacing=0.1, compare=["least-norm", index])
+    by_hand = hf.follow(machine, path, maximise=index, method="none", samples=21, task="planar")
+    least = got.beside[0]
+    off = by_hand.position_error > 1e-3
+    assert 0 < least.off == off.mean() < 1
+    assert not least.curve[off].any()
+    assert all(other.survival <= got.bound + 1e-9 for other in got.beside)
+    free = arm()
+    got = hf.endure(free, path, samples=21, spacing=0.1, compare=["least-norm"])
+    index = hf.indices.relative_manipulability(free, "planar")
+    by_hand = hf.follow(free, path, maximise=index, method="none", samples=21, task="planar")
+    (least,) = got.beside
+    assert least.off == 0
+    assert least.survival == pytest.approx(hf.endurance_of(free, by_hand, path, samples=21).survival)
+    assert least.survival <= got.survival
+    with pytest.raises(InputError, match="least-norm"):
+        hf.endure(machine, path, samples=21, compare=["fastest"])
+
+
+def test_a_motion_for_a_controller_keeps_path_and_verdicts(narrow):
+    machine, path, best = narrow
+    motion = best.motion
+    assert motion.on_path
+    assert np.abs(motion.q[::5] - best.q).max() < 1e-9
+    assert hf.endurance_of(machine, motion, path, samples=21).survival == pytest.approx(best.survival)
+
+
 def test_a_start_is_kept(narrow):
     machine, path, best = narrow
     near = np.abs(best.found.nodes[0] - best.q[0]).max(axis=1)
@@ -190,7 +221,7 @@ def test_an_elbow_is_set_by_the_pose(name, elbow):
     assert best.found.moved[3] == pytest.approx(elbow, abs=0.01)
     assert best.by_joint[machine.joint_names[3]] <= 0.05
     assert 0.5 < best.survival <= best.bound + 1e-9 < 0.87
-    assert f"{machine.joint_names[3]}: the pose sets it" in " ".join(best.describe())
+    assert f"no self-motion moves {machine.joint_names[3]}" in " ".join(best.describe())
     assert best.speed <= 1
 
 

@@ -51,7 +51,7 @@ VALUES = named(
         "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
-        "endurance": "Approach Found Injection VelocityJump",
+        "endurance": "Approach Compared Found Injection VelocityJump",
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "indices": "Evaluation Part WorstCase",

@@ -70,6 +70,7 @@ def test_a_state_comes_back_from_its_command_line(opened, tmp_path, rng):
         region=str(folder),
         time=1.25,
         cell=str(BENCH),
+        meshes=str(folder),
         moved=(("lamp", (0.1, 0.2, 0.3, 0.0, 0.0, 0.0, 1.0)),),
     )
     run(state.to_command())

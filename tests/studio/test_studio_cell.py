@@ -23,7 +23,8 @@ CELL = hf.Cell(
         hf.cell.Box("table", [0.8, 1.2, 0.04], pose=at(0.6, 0, -0.02)),
         hf.cell.Sphere("ball", 0.12, pose=at(0.1, 0.6, 0.9)),
         hf.cell.Cylinder("post", 0.05, 1.0, pose=at(0.1, -0.6, 0.5)),
-    ]
+    ],
+    name="bench / 2",
 )
 
 
@@ -36,7 +37,7 @@ def cell_studio():
     page.stop()
 
 
-def test_a_ball_is_dragged_until_the_arm_is_blocked(cell_studio, visit):
+def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_studio, visit, tmp_path):
     page, window = visit(cell_studio)
     clear = hf.Clearance.by_default(window.machine.arm, CELL)
     gap = clear.obstacles.gap(window.q)
@@ -54,6 +55,15 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked(cell_studio, visit):
     assert tuple(window.objects._handles["ball"].color) == (190, 30, 45)
     assert window.state.moved == (("ball", pose_numbers(hand)),)
     assert "--move=ball=" in window.state.to_command()
+    page.get_by_role("tab", name="File").click()
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save the cell").click()
+    assert download.value.suggested_filename == "bench-2.yaml"
+    download.value.save_as(tmp_path / "bench-2.yaml")
+    back = hf.Cell.load(tmp_path / "bench-2.yaml")
+    assert back.digest == CELL.with_poses({"ball": hand}).digest != CELL.digest
+    wait_for(page, lambda: "Saved bench-2.yaml. From its folder: holdfast studio panda" in page.inner_text("body"))
+    assert "--cell=bench-2.yaml" in page.inner_text("body")
 
 
 def test_an_object_on_the_base_is_said_and_loses_nothing(cell_studio, visit):

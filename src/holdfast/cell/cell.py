@@ -209,7 +209,8 @@ class Cell:
         data["objects"] = {solid.name: cell_file.entry_of(solid) for solid in self.objects}
         data |= {"held": [cell_file.entry_of(solid) for solid in self.held]} if self.held else {}
         data |= {"may_touch": [list(pair) for pair in self.may_touch]} if self.may_touch else {}
-        arm: dict[str, Any] = {"shape": self.shape} if self.shape else {}
+        whole = self.shape if self.shape in cell_file.SHAPES else str(Path(self.shape).resolve())
+        arm: dict[str, Any] = {"shape": whole} if whole else {}
         arm |= {"spheres_to": float(self.spheres_to)} if self.spheres_to is not None else {}
         arm |= {"hold": {name: float(value) for name, value in self.hold.items()}} if self.hold else {}
         return data | ({"arm": arm} if arm else {})
@@ -229,8 +230,7 @@ class Cell:
         """
         import io
 
-        import yaml
-
+        from holdfast.cell import cell_file
         from holdfast.files import mesh, output
 
         file, data, beside = Path(path), self.to_dict(), {}
@@ -249,20 +249,34 @@ class Cell:
                 stream = io.BytesIO()
                 np.save(stream, solid.centres)
                 beside[here / entry[key]] = stream.getvalue()
+        if self.shape not in cell_file.SHAPES:
+            data["arm"]["shape"] = os.path.relpath(data["arm"]["shape"], here)
         for place, content in beside.items():
             output.replaced(place, content, "cell to")
-        text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=128)
-        output.replaced(file, text, "cell to")
+        output.replaced(file, cell_file.text(data), "cell to")
         return [file, *beside]
 
     # ---- what it is made of ------------------------------------------------------------------------------------
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of everything that counts, triangles and points included, and of nothing else, as the cell's name.
+        """SHA-256 of everything that counts, triangles and points included, and of nothing else, as names and paths.
 
-        The same shape from a file of another kind, or from arrays, has the same one.
+        The same shape from a file of another kind, or from arrays, has the same one. Of a capsule file the bytes count.
+
+        Raises:
+            InputError: The capsule file cannot be read.
         """
+        from holdfast.cell import cell_file
+        from holdfast.files import reading
+
+        if self.shape in cell_file.SHAPES:
+            return self.digest_with(self.shape)
+        with reading.guarded(f"capsule file '{self.shape}'"):
+            return self.digest_with(hashlib.sha256(reading.raw(Path(self.shape))).hexdigest())
+
+    def digest_with(self, shape: str) -> str:
+        """The same with other words for the shape of the arm: older folders have the path of its capsule file."""
         from holdfast.cell import cell_file
 
         def said(solid: Solid) -> Any:
@@ -275,7 +289,7 @@ class Cell:
             sorted(map(said, self.objects), key=lambda row: row[0]),
             [cell_file.entry_of(solid) for solid in self.held],
             [float(self.margin), sorted(map(list, self.may_touch))],
-            [self.shape, self.spheres_to, sorted(self.hold.items())],
+            [shape, self.spheres_to, sorted(self.hold.items())],
         ]
         return hashlib.sha256(json.dumps(counted).encode()).hexdigest()
 

@@ -22,9 +22,9 @@ An example with every key; only ``objects``, and one kind in each object, must b
       - [ball, panda_joint7]
     arm: {shape: meshes, spheres_to: 0.01, hold: {panda_finger_joint1: 0.04}}
 
-``arm`` says what shape the arm has: ``meshes`` of its own file, ``assumed`` capsules, or a capsule file; how far its spheres
-may reach beyond it, m; and where joints outside its chain are, rad or m. A pose may also be 4 rows of 4 numbers, a mesh
-``{vertices: [...], faces: [...]}`` and points a list.
+``arm`` says what shape the arm has: ``meshes`` of its own file, ``assumed`` capsules, or a capsule file beside this one; how
+far its spheres may reach beyond it, m; and where joints outside its chain are, rad or m. A pose may also be 4 rows of 4
+numbers, a mesh ``{vertices: [...], faces: [...]}`` and points a list.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
+import yaml
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
@@ -48,6 +49,7 @@ Positive = Annotated[Number, Field(gt=0)]
 Least = Annotated[Number, Field(ge=0)]
 
 EXAMPLE = "holdfast.cell.cell_file"
+SHAPES = ("", "meshes", "assumed")  # of the arm; every other is a capsule file
 KINDS = ("box", "cylinder", "capsule", "sphere", "half_space", "mesh", "points")
 _HELD = KINDS[:4]
 _UNIT = 1e-2  # files may round the numbers of a unit quaternion
@@ -146,6 +148,7 @@ def parse(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         "held": [_held(k, entry, folder) for k, entry in enumerate(told.held)],
         "may_touch": [(a, b) for a, b in told.may_touch],
         **told.arm.model_dump(exclude_none=True),
+        "shape": shape if (shape := told.arm.shape or "") in SHAPES else str(folder / shape),
     }
 
 
@@ -224,6 +227,11 @@ def _upright(normal: Array, place: str) -> Array:
 
 
 # ---- writing -----------------------------------------------------------------------------------------------------
+
+
+def text(data: dict[str, Any]) -> str:
+    """A file of keys and values."""
+    return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=128)
 
 
 def entry_of(solid: Solid) -> dict[str, Any]:

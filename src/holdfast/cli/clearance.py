@@ -120,15 +120,23 @@ def read_clearance(
 
 
 def read_kept(
-    arm: Arm, wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, cell: Path | None
+    arm: Arm,
+    wanted: bool | None,
+    capsules: Path | None,
+    radius: float | None,
+    margin: float | None,
+    cell: Path | None,
+    meshes: Path | None,
 ) -> Clearance | None:
-    """What a motion keeps clear of: nothing unless an option asks for it."""
+    """What a motion keeps clear of: nothing unless an option but --meshes asks for it."""
     if cell is None and not wanted and capsules is None and radius is None and margin is None:
         return None
-    return read_clearance(arm, wanted, capsules, radius, margin, chooses=True, cell=cell)
+    return read_clearance(arm, wanted, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes)
 
 
-def read_contact_shape(arm: Arm, capsules: Path | None, radius: float | None, cell: Path | None) -> Clearance | None:
+def read_contact_shape(
+    arm: Arm, capsules: Path | None, radius: float | None, cell: Path | None, meshes: Path | None
+) -> Clearance | None:
     """What an arm may touch in a cell, where a command says what it does touch; None without a cell.
 
     Raises:
@@ -137,8 +145,8 @@ def read_contact_shape(arm: Arm, capsules: Path | None, radius: float | None, ce
     """
     check_clearance(None, capsules, radius, None, cell)
     if cell is None:
-        for name, given in (("--capsules", capsules), ("--radius", radius)):
+        for name, given in (("--capsules", capsules), ("--radius", radius), ("--meshes", meshes)):
             if given is not None:
                 raise InputError(f"{name} is the shape of the arm that may touch a cell, and there is none; add --cell")
         return None
-    return read_clearance(arm, False, capsules, radius, None, chooses=False, cell=cell)
+    return read_clearance(arm, False, capsules, radius, None, chooses=False, cell=cell, meshes=meshes)

@@ -277,7 +277,7 @@ def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Object
         at = found.end()
     plain = len(summands) == 1 and summands[0][0] == 1
     objective = summands[0][1] if plain else WeightedSum(summands)
-    wanted = "smaller" if option == "--minimise" else "larger"
+    wanted = {"--minimise": "smaller", "--maximise": "larger"}.get(option, objective.better)
     return objective if objective.better == wanted else Opposite(objective)
 
 

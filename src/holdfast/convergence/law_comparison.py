@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,10 @@ from holdfast.probability.intervals import Difference, Interval
 from holdfast.result import Result
 from holdfast.simulation.batch import ARRIVES
 from holdfast.simulation.runs import UNDECIDED, Outcome, Runs
+
+if TYPE_CHECKING:
+    from holdfast.clearance.clearance import Clearance
+    from holdfast.clearance.contacts import Contact
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -45,6 +49,7 @@ class Case:
         excursion: (N,) sum over the joints of the range that each went through, rad (and m).
         past_limits: (N,) True where a joint left its limits, which the motion does not heed.
         time: (N,) s, or cycles, when the run ended.
+        contacts: (N,) what each run touches first, None for nothing; None if nobody looked.
     """
 
     law: str
@@ -60,6 +65,12 @@ class Case:
     excursion: Array
     past_limits: Flags
     time: Array
+    contacts: tuple[Contact | None, ...] | None = None
+
+    @property
+    def touched(self) -> Flags:
+        """(N,) True for the runs that touch something on the way, as far as anybody looked."""
+        return np.array([contact is not None for contact in self.contacts or ()] or np.zeros(len(self.code)), dtype=bool)
 
     def ended(self, outcome: str) -> Flags:
         """(N,) True for the runs that are ``converged``, ``stuck``, ``moving`` or ``undecided``.
@@ -117,6 +128,11 @@ class LawComparison(Result):
         return self.laws[0].arm
 
     @property
+    def clearance(self) -> Clearance | None:
+        """What the runs were looked at for touching, or None: nobody looked. It changes no run."""
+        return self.runs[0].clearance
+
+    @property
     def joints(self) -> tuple[str, ...]:
         """The joints that were locked."""
         return self.failures[1:]
@@ -167,6 +183,7 @@ class LawComparison(Result):
             excursion=(r.q_high[rows] - r.q_low[rows]).sum(axis=1),
             past_limits=np.asarray(r.limits_passed[rows].any(axis=1)),
             time=r.time[rows],
+            contacts=None if r.contacts is None else r.first_contacts[rows],
         )
 
     def pooled(self, law: str, of: str) -> NDArray[Any]:
@@ -186,6 +203,13 @@ class LawComparison(Result):
         interval that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
         """
         return Interval.of_fractions((self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0))
+
+    def touched_any(self, law: str) -> Interval:
+        """Share of the runs that touch something where each of the joints is as likely to lock; as :meth:`share_any`.
+
+        Distances are lower bounds, so it is at most so many.
+        """
+        return Interval.of_fractions(self.pooled(law, "touched").mean(axis=0))
 
     def gain(
         self,
@@ -284,7 +308,8 @@ class LawComparison(Result):
         them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``error_*`` and ``excess_*``
         (quantiles of the end error and of what it exceeds the least by), ``astray`` (median end error of the runs that did not
         converge), ``closest``, ``path_ratio`` and ``excursion`` (medians), and ``past_limits`` (share of runs with a joint
-        beyond a limit). m and rad.
+        beyond a limit). m and rad. Where somebody looked, also ``touched`` (share of runs that touch something, with its
+        interval) and ``converged_clear`` (converged, and touched nothing on the way).
         """
         return [self._row(self.case(name, failure)) for name in self.names for failure in self.failures]
 
@@ -303,6 +328,9 @@ class LawComparison(Result):
         for what in ("closest", "path_ratio", "excursion"):
             row[what] = _quantile(getattr(c, what), 0.5)
         row["past_limits"] = float(c.past_limits.mean())
+        if c.contacts is not None:
+            row |= _ends("touched", Interval.of(int(c.touched.sum()), len(self)))
+            row["converged_clear"] = float((c.ended("converged") & ~c.touched).mean())
         return row
 
     def reasons(self, law: str) -> dict[str, int]:
@@ -320,6 +348,7 @@ class LawComparison(Result):
             if self.joints:
                 after = self.share_any(name)
                 text += f"; with a joint locked {after.value:.1%} (95 % interval {after.low:.1%} to {after.high:.1%})"
+                text += f"; {self.touched_any(name).value:.1%} touch something on the way" if self.clearance is not None else ""
             lines.append(text)
         return lines
 

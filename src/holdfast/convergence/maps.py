@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.configurations import as_configurations
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.convergence.places import Places, picked_at, read_places
 from holdfast.errors import InputError
@@ -54,6 +56,9 @@ class ConvergenceMap(Result):
             as it does: a configuration was found.
         limits_passed: (P, C, n + 1) True where a joint left its limits on the way; the motion does not heed them.
         seed: Of places, configurations and targets.
+        clearance: What the runs were looked at for touching, or None: nobody looked. It changes no run.
+        touched: (P, C, n + 1) True where the arm touches something on the way, at most: distances are bounds; None if nobody
+            looked.
     """
 
     law: Law
@@ -66,11 +71,18 @@ class ConvergenceMap(Result):
     in_reach: Flags
     limits_passed: Flags
     seed: int
+    clearance: Clearance | None = None
+    touched: Flags | None = None
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Locked joints by name, and ``none``."""
         return (*self.law.arm.joint_names, "none")
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """What :meth:`happened` knows: ``converged`` and so on."""
+        return (*_OUTCOMES, "in_reach", "trapped", *(() if self.touched is None else ("touched",)))
 
     @property
     def known(self) -> Flags:
@@ -81,18 +93,20 @@ class ConvergenceMap(Result):
         """(P, C, n + 1) True where a run ended so.
 
         Args:
-            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; ``in_reach``: it converged, or could have; or
-                ``trapped``: it did not converge although the target was in reach.
+            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; ``in_reach``: it converged, or could have;
+                ``trapped``: it did not converge although the target was in reach; or, where somebody looked, ``touched``.
 
         Raises:
             InputError: Another word.
         """
+        if outcome == "touched" and self.touched is not None:
+            return self.touched
         if outcome == "trapped":
             return np.asarray(self.known[..., None] & (self.code != Outcome.CONVERGED) & self.in_reach)
         if outcome == "in_reach":
             return self.in_reach
         if outcome not in _OUTCOMES:
-            raise InputError(f"outcome '{outcome}' is not known; use {', '.join(_OUTCOMES)}, in_reach or trapped")
+            raise InputError(f"outcome '{outcome}' is not known; use {', '.join(self.words)}")
         return np.asarray(self.code == _OUTCOMES[outcome])
 
     def values(self, outcome: str = "converged") -> Array:
@@ -115,7 +129,8 @@ class ConvergenceMap(Result):
     def to_xarray(self) -> xr.Dataset:
         """Of each motion from or to each place: where it starts and should go, and how it ended with each joint locked."""
         each = ("place", "motion")
-        values: dict[str, Any] = {name: ((*each, "locked"), getattr(self, name)) for name in _BY_LOCK}
+        names = (*_BY_LOCK, *(() if self.touched is None else ("touched",)))
+        values: dict[str, Any] = {name: ((*each, "locked"), getattr(self, name)) for name in names}
         values |= {"q0": ((*each, "joint"), self.q0), "target": ((*each, "row", "column"), self.target)}
         return self.places.dataset(values, locked=self.columns, joint=self.law.arm.joint_names)
 
@@ -173,6 +188,8 @@ def convergence_map(
     tolerance: float = TOLERANCE,
     seed: int = 0,
     progress: Progress | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
 ) -> ConvergenceMap:
     """How motions end when a joint is locked from the start and the controller does not know it, for each joint.
 
@@ -194,6 +211,9 @@ def convergence_map(
         tolerance: Of the simulation's steps, rad.
         seed: Of everything random.
         progress: Called with (runs done, runs in all).
+        clearance: As for :func:`holdfast.simulation.simulate`, and so ``cell``: every run is looked at, one after the
+            other, for what it touches; that changes none, and takes longer than the runs themselves.
+        cell: Objects around the arm, or their file.
 
     Raises:
         InputError: Wrong shapes or options.
@@ -208,6 +228,7 @@ def convergence_map(
     if q0 is not None and over == "starts":
         raise InputError("q0 are fixed starts, so the map is one over='targets'; or leave out q0")
     arm, task = law.arm, law.task
+    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
     first, second, third = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3))
     goals = read_places(arm, task, targets, first)
     if over == "starts":
@@ -229,7 +250,7 @@ def convergence_map(
         chosen = np.argsort(third.random((len(places), len(pool))), axis=1)[:, :each]
         q = pool[chosen]
         target = np.broadcast_to(places.poses[:, None], (*q.shape[:2], 4, 4))
-    code, reason, in_reach, passed = _run(law, q, target, time_limit, tolerance, seed, progress)
+    code, reason, in_reach, passed, touched = _run(law, q, target, time_limit, tolerance, seed, progress, looked)
     return ConvergenceMap(
         law=law,
         places=places,
@@ -241,6 +262,8 @@ def convergence_map(
         in_reach=in_reach,
         limits_passed=passed,
         seed=seed,
+        clearance=looked,
+        touched=None if looked is None else touched,
     )
 
 
@@ -253,30 +276,39 @@ def _picked(law: Law, places: Places, count: int, seed: int, generator: np.rando
 
 
 def _run(
-    law: Law, q: Array, target: Array, time_limit: float | None, tolerance: float, seed: int, progress: Progress | None
-) -> tuple[NDArray[np.uint8], NDArray[np.uint8], Flags, Flags]:
-    """Codes, reasons, whether the target was in reach and whether limits were passed, (P, C, n + 1) each."""
+    law: Law,
+    q: Array,
+    target: Array,
+    time_limit: float | None,
+    tolerance: float,
+    seed: int,
+    progress: Progress | None,
+    clearance: Clearance | None,
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], Flags, Flags, Flags]:
+    """Codes, reasons, and whether the target was in reach, limits were passed and something touched, (P, C, n + 1) each."""
     n = law.arm.n
     limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
     known = np.isfinite(q).all(axis=-1)
     start, pose = np.repeat(q[known], n + 1, axis=0), np.repeat(target[known], n + 1, axis=0)
     locked = np.tile([*range(n), -1], int(known.sum()))
     code, reason = (np.zeros(len(locked), dtype=np.uint8) for _ in range(2))
-    passed, near = (np.zeros(len(locked), dtype=bool) for _ in range(2))
+    passed, near, touched = (np.zeros(len(locked), dtype=bool) for _ in range(3))
     for at in range(0, len(locked), _SLICE):
         rows = slice(at, at + _SLICE)
-        runs = simulate(law, start[rows], pose[rows], locked=locked[rows], time_limit=limit, tolerance=tolerance)
+        setting: dict[str, Any] = {"time_limit": limit, "tolerance": tolerance, "clearance": clearance}
+        runs = simulate(law, start[rows], pose[rows], locked=locked[rows], **setting)
+        touched[rows] = [contact is not None for contact in runs.first_contacts]
         code[rows], reason[rows], passed[rows] = runs.code, runs.reason, runs.limits_passed.any(axis=1)
         near[rows] = _in_reach(law, runs.code, start[rows], pose[rows], locked[rows], seed)
         if progress is not None:
             progress(min(at + _SLICE, len(locked)), len(locked))
     shape = (*known.shape, n + 1)
     results: list[Any] = []
-    for values, fill in ((code, NONE), (reason, Reason.NONE), (near, False), (passed, False)):
+    for values, fill in ((code, NONE), (reason, Reason.NONE), (near, False), (passed, False), (touched, False)):
         out = np.full(shape, fill, dtype=values.dtype)
         out[known] = values.reshape(-1, n + 1)
         results.append(out)
-    return results[0], results[1], results[2], results[3]
+    return results[0], results[1], results[2], results[3], results[4]
 
 
 def _in_reach(law: Law, code: NDArray[np.uint8], q: Array, pose: Array, locked: NDArray[np.int64], seed: int) -> Flags:

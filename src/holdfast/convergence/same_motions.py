@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.poses import check_poses
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.convergence.detours import healthy_cost
 from holdfast.convergence.law_comparison import HEALTHY, LawComparison, at_rest
@@ -39,6 +41,8 @@ def compare_laws(
     restarts: int = 24,
     seed: int = 0,
     about: str = "",
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
 ) -> LawComparison:
     """Run control laws over the same motions: with nothing failed, and with each joint locked from the start.
 
@@ -58,6 +62,9 @@ def compare_laws(
         restarts: Random starts of the search for the least error that a failed arm can have.
         seed: Of these.
         about: What the motions are, a phrase for the report.
+        clearance: As for :func:`holdfast.simulation.simulate`, and so ``cell``: every run is looked at, one after the
+            other, for what it touches first; that changes none.
+        cell: Objects around the arm, or their file.
 
     Raises:
         InputError: Wrong shapes or options; laws of different arms or tasks.
@@ -83,6 +90,7 @@ def compare_laws(
         raise InputError(f"q0 has {len(start)} rows and target {len(goal)}; give the same number of each, or one for all")
     start = np.broadcast_to(start, (count, arm.n))
     goal = np.broadcast_to(goal, (count, *goal.shape[1:]))
+    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
     stood = np.repeat(np.array([-1, *joints]), count)
     many = len(joints) + 1
     runs, costs = [], []
@@ -99,6 +107,7 @@ def compare_laws(
                     time_limit=time_limit,
                     tolerance=tolerance,
                     radius=radius,
+                    clearance=looked,
                 )
             )
             poses = _poses(law, goal)

@@ -1,3 +1,4 @@
+from holdfast.endurance.endurance import Compared as Compared
 from holdfast.endurance.endurance import Endurance as Endurance
 from holdfast.endurance.endurance import Found as Found
 from holdfast.endurance.endurance import VelocityJump as VelocityJump

@@ -17,8 +17,10 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.endurance.injection import Injection, drawn_locks, finished, healthy
 from holdfast.endurance.problem import Mode, Problem
 from holdfast.endurance.rates import FailureRates
+from holdfast.endurance.timed_motion import as_trajectory
 from holdfast.errors import InputError
 from holdfast.files.output import write_table
+from holdfast.motion.trajectory import Trajectory
 from holdfast.notice import says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.probability.intervals import Interval
@@ -85,6 +87,23 @@ class Found:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Compared:
+    """What another motion along the same path survives.
+
+    Attributes:
+        name: What made it.
+        survival: As of :class:`Endurance`.
+        curve: (T,) as there, at the same times.
+        off: Fraction of the samples at which it is off the path, or there is none; nothing is survived there.
+    """
+
+    name: str
+    survival: float
+    curve: Array
+    off: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Endurance(Result):
     """Which single locks a motion along a path survives, at T times.
 
@@ -104,6 +123,8 @@ class Endurance(Result):
         kept: What the motion and the failed arm keep clear of, and by how much, m; or None.
         found: What the search for the best motion knows; None for a motion that was given.
         exact: False where a verdict is only necessary: detours among obstacles, which are not looked for.
+        beside: Other motions along the path.
+        injected: Locks that were tried on it, if somebody did; see :meth:`inject`.
     """
 
     arm: Arm
@@ -118,6 +139,8 @@ class Endurance(Result):
     kept: tuple[Clearance, float] | None = None
     found: Found | None = None
     exact: bool = True
+    beside: tuple[Compared, ...] = ()
+    injected: Injection | None = None
     _problem: Problem = field(repr=False)
 
     @classmethod
@@ -239,6 +262,13 @@ class Endurance(Result):
             mean_angular=self._mean(angular @ share),
         )
 
+    @cached_property
+    def motion(self) -> Trajectory:
+        """The motion for a controller, at five times as many samples, each on its pose; its objective is what a local measure
+        of fault tolerance says of it.
+        """
+        return as_trajectory(self._problem, self.q)
+
     @checked
     @says("injecting locks")
     def inject(self, locks: int = 1000, *, seed: int = 1) -> Injection:
@@ -290,9 +320,9 @@ class Endurance(Result):
         joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0))
         lines = []
         for joint, most in zip([self.arm.joints[k] for k in joints], self.found.moved[joints], strict=True):
-            moves = "does not move" if most <= _STILL else f"moves by at most {most:.3g} {joint.unit}"
+            far = f" by more than {most:.3g} {joint.unit}" if most > _STILL else ""
             lines.append(
-                f"the self-motion {moves} {joint.name}: the pose sets it (of an elbow between spherical shoulder and wrist "
+                f"no self-motion moves {joint.name}{far}: the pose sets it (of an elbow between spherical shoulder and wrist "
                 "their distance does), so that its lock is survived only while that hardly changes"
             )
         return lines
@@ -321,10 +351,18 @@ class Endurance(Result):
                 f"by joint: {', '.join(f'{name} {percent(x)}' for name, x in self.by_joint.items())}; "
                 f"worst at {when:.4g} s, where {percent(least)} are survived; from {self.safe_from:.4g} s on all are"
             )
+        if self.beside:
+            lines.append("beside it: " + ", ".join(f"{other.name} {percent(other.survival)}" for other in self.beside))
+        if self.injected is not None:
+            count, p = len(self.injected.time), self.injected.interval
+            lines.append(
+                f"of {count} locks injected at random times {percent(p.value)} were survived ({percent(p.low)} to "
+                f"{percent(p.high)}, 95 %); the motion says the same of {percent(self.injected.alike)} of them"
+            )
         if self.never is not None:
             when, name = self.never
             lines.append(
-                f"no motion survives everything: at {when:.4g} s no configuration survives every lock, nor that of {name} least"
+                f"no motion survives all: at {when:.4g} s no configuration survives every lock, least of all that of {name}"
             )
         lines += self._set_by_the_pose()
         if self.speed > 1 + _WHOLE:

@@ -13,14 +13,13 @@ from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance.endurance import Endurance
-from holdfast.endurance.problem import ON, Mode, posed
+from holdfast.endurance.problem import Mode, posed
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError
 from holdfast.motion.trajectory import Trajectory
 from holdfast.notice import says
 from holdfast.paths.timed_path import TimedPath
-from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.self_motions import STARTS, fibres
+from holdfast.solvers.self_motions import STARTS
 
 Array = NDArray[np.float64]
 
@@ -66,7 +65,9 @@ def endurance_of(
         InputError: A motion that is not on the path, rates or options that do not fit.
         TaskError: No redundancy, or more than one degree of it.
     """
-    problem = posed(arm, path, rates, per_second, mode, task, samples, clearance, cell, margin)
+    problem = posed(
+        arm, path, rates, per_second, mode, task, samples, clearance, cell, margin, spacing=spacing, seed=seed, starts=starts
+    )
     if isinstance(motion, Trajectory):
         given, times = motion.q, motion.time
     else:
@@ -79,15 +80,10 @@ def endurance_of(
             f"the motion takes {times[-1]:.4g} s and the path {path.duration:.4g} s; give those that belong together"
         )
     q = np.column_stack([np.interp(problem.time, times, x) for x in given.T])
-    position, rotation = (float(x.max()) for x in solver(arm, problem.task).errors(q, problem.lock.poses))
-    if max(position, rotation) > ON:
+    off = problem.off(q)
+    if off.any():
         raise InputError(
-            f"the motion is up to {position:.3g} m and {rotation:.3g} rad off the path, at most {ON:g} is followed on; give "
-            "a motion along this path"
+            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off.argmax()]:.4g} s; give one "
+            "along this path"
         )
-    found = None
-    if mode == "detour":
-        options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": True, "margin": margin}
-        kept = None if problem.kept is None else problem.kept[0]
-        found = fibres(arm, problem.lock.poses, problem.task, clearance=kept, **options)  # type: ignore[arg-type]
-    return Endurance.of(problem, q, survives=problem.judge(found)(q))
+    return Endurance.of(problem, q, survives=problem.judge(q))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, task_of_path
+from holdfast.caching import cached_property
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
@@ -18,7 +19,8 @@ from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
 from holdfast.paths.timed_path import TimedPath
-from holdfast.solvers.self_motions import SelfMotion, tracer
+from holdfast.solvers.inverse_kinematics import solver
+from holdfast.solvers.self_motions import SelfMotion, fibres, tracer
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -40,14 +42,40 @@ class Problem:
     time: Array
     lock: Lock
     kept: tuple[Clearance, float] | None
+    spacing: float
+    seed: int
+    starts: int
 
-    def judge(self, found: list[SelfMotion] | None) -> Callable[[Array], Flags]:
-        """What says which locks of motions (T, n) are survived, (T, n)."""
+    def judge(self, q: Array) -> Flags:
+        """(T, n) which locks of a motion (T, n) are survived; none where it is NaN."""
         if self.mode == "on-path":
-            return lambda q: tables.along(self.lock, q)
-        assert found is not None
-        ranges = tables.common_ranges(found)
-        return lambda q: np.array([tables.within(self.arm, x[None], at)[0] for x, at in zip(q, ranges, strict=True)])
+            return tables.along(self.lock, q)
+        return np.array([tables.within(self.arm, x[None], at)[0] for x, at in zip(q, self._ranges, strict=True)])
+
+    @cached_property
+    def fibres(self) -> list[SelfMotion]:
+        """The self-motion curves of every pose."""
+        kept, margin = self.kept or (None, 0.0)
+        return fibres(
+            self.arm,
+            self.lock.poses,
+            self.task,
+            spacing=self.spacing,
+            seed=self.seed,
+            starts=self.starts,
+            follow=True,
+            clearance=kept,
+            margin=margin,
+        )
+
+    @cached_property
+    def _ranges(self) -> list[list[tables.Spans]]:
+        return tables.common_ranges(self.fibres)
+
+    def off(self, q: Array) -> Flags:
+        """(T,) where a motion (T, n) is off the path by more than 1 mm or 1 mrad, or not there at all."""
+        position, rotation = solver(self.arm, self.task).errors(q, self.lock.poses)
+        return ~(np.maximum(position, rotation) <= ON)
 
 
 def posed(
@@ -61,6 +89,10 @@ def posed(
     clearance: Clearance | bool | None,
     cell: CellLike | None,
     margin: float,
+    *,
+    spacing: float,
+    seed: int,
+    starts: int,
 ) -> Problem:
     """The problem, if it can be posed.
 
@@ -96,4 +128,7 @@ def posed(
         time=time,
         lock=Lock.along(arm, tracer(arm, rows), path, time, kept),
         kept=kept,
+        spacing=spacing,
+        seed=seed,
+        starts=starts,
     )

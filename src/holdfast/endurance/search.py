@@ -14,17 +14,19 @@ from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
 from holdfast.endurance.choice import best_motions
+from holdfast.endurance.comparison import beside
 from holdfast.endurance.endurance import Endurance, Found
 from holdfast.endurance.grid import Nodes, nodes_of
 from holdfast.endurance.problem import ON, Mode, Problem, posed
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.endurance.smoothing import smoothed
 from holdfast.errors import HoldfastError, InputError
+from holdfast.indices.objective import Objective
 from holdfast.notice import says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.self_motions import STARTS, fibres
+from holdfast.solvers.self_motions import STARTS
 
 Array = NDArray[np.float64]
 
@@ -49,6 +51,7 @@ def endure(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
+    compare: Sequence[Objective | str] = (),
 ) -> Endurance:
     """The motion along a path after which most locks of a joint, whichever and whenever, leave the rest of the path possible.
 
@@ -75,6 +78,9 @@ def endure(
         clearance: Keep the links of the arm apart; not looked at if not given. See :func:`holdfast.follow`.
         cell: Objects around the arm, or their file, to keep clear of before the lock and after it, at every sample.
         margin: m; from an object beyond what the cell keeps from it.
+        compare: Motions along the same path that the result is to be compared with: ``least-norm``, and for every index or
+            susceptibility the motion by gradient projection and the best continuous one at every pose (:func:`holdfast.follow`
+            with ``best``).
 
     Returns:
         An :class:`Endurance` with the motion, its survival, the bound and the interval of the grid.
@@ -87,19 +93,11 @@ def endure(
     Source: sets of values that a joint may be locked at, Lewis and Maciejewski 1997; survival over a whole path, its optimum
     and its bound are ours.
     """
-    problem = posed(arm, path, rates, per_second, mode, task, samples, clearance, cell, margin)
-    lock, poses = problem.lock, problem.lock.poses
-    found = fibres(
-        arm,
-        poses,
-        problem.task,
-        spacing=spacing,
-        seed=seed,
-        starts=starts,
-        follow=True,
-        clearance=None if problem.kept is None else problem.kept[0],
-        margin=margin,
+    problem = posed(
+        arm, path, rates, per_second, mode, task, samples, clearance, cell, margin, spacing=spacing, seed=seed, starts=starts
     )
+    lock, poses = problem.lock, problem.lock.poses
+    found = problem.fibres
     for time, each in zip(problem.time, found, strict=True):
         if not len(each.q):
             raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {each.describe()[0]}")
@@ -129,17 +127,18 @@ def endure(
         survives=[v.survives for v in table],
         moved=np.max([np.ptp(c.q, axis=0) for each in found for c in each.components], axis=0),
     )
-    survived = problem.judge(found)
     results = []
     for chosen, most in zip(motions, gathered, strict=True):
         if chosen is None:
             continue
         q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
         smooth = smoothed(lock.tracer, nodes, table, gains, chosen, q, poses, held=start is not None)
-        made = Endurance.of(problem, smooth, survives=survived(smooth), found=known)
-        results.append(made if made.survival >= most - _ALIKE else Endurance.of(problem, q, survives=survived(q), found=known))
+        made = Endurance.of(problem, smooth, survives=problem.judge(smooth), found=known)
+        rough = Endurance.of(problem, q, survives=problem.judge(q), found=known)
+        results.append(made if made.survival >= most - _ALIKE else rough)
     # What the joints can do comes first; of equals the first.
-    return max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
+    best = max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
+    return best if not compare else beside(problem, best, compare, seed)
 
 
 def _begun(problem: Problem, start: ArrayLike) -> Array:

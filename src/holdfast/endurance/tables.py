@@ -170,15 +170,20 @@ def _shared(a: Spans, b: Spans) -> Spans:
 
 
 def along(lock: Lock, q: Array) -> Flags:
-    """(T, n) as :func:`on_path` for one configuration q (T, n) of each pose: every lock is followed to the end."""
+    """(T, n) as :func:`on_path` for one configuration q (T, n) of each pose: every lock is followed to the end.
+
+    Where q is NaN none is.
+    """
     survives = np.zeros(q.shape, dtype=bool)
-    survives[-1] = True
+    there: Flags = np.asarray(np.isfinite(q).all(axis=1))
+    survives[-1] = there[-1]
     n = lock.arm.n
     at = np.empty((0, n))
     begun, joint = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     for t in each("poses", range(len(q) - 1)):
-        at = np.concatenate([at, np.repeat(q[t : t + 1], n, axis=0)])
-        begun, joint = np.concatenate([begun, np.full(n, t)]), np.concatenate([joint, np.arange(n)])
+        fresh = n if there[t] else 0
+        at = np.concatenate([at, np.repeat(q[t : t + 1], fresh, axis=0)])
+        begun, joint = np.concatenate([begun, np.full(fresh, t)]), np.concatenate([joint, np.arange(fresh)])
         at, good = lock.step(at, joint, t)
         at, begun, joint = at[good], begun[good], joint[good]
     survives[begun, joint] = True

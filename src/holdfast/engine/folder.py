@@ -43,9 +43,16 @@ def taken_for(plan: Mapping[str, Any], old: Mapping[str, Any], formerly: Mapping
         old: What the folder holds.
         formerly: Entries of ``plan`` as earlier versions wrote them, None for those that they did not have.
     """
+    wanted = by_content(plan)
+    old = {**old, **{key: plan[key] for key, value in by_content(old).items() if value == wanted.get(key)}}
     if formerly is None or any(old.get(key) != value for key, value in formerly.items()):
         return old
     return {**old, **{key: plan[key] for key in formerly}}
+
+
+def by_content(plan: Mapping[str, Any]) -> dict[str, Any]:
+    """What defines the results of a plan: of an entry with a ``sha256`` that alone, not where its files lie."""
+    return {key: x["sha256"] if isinstance(x, dict) and "sha256" in x else x for key, x in plan.items()}
 
 
 def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
+from holdfast.engine.folder import by_content
 from holdfast.engine.store import Column
 
 
@@ -107,7 +108,7 @@ class Cell:
     @cached_property
     def digest(self) -> str:
         """Of all that defines its values."""
-        text = json.dumps([self.plan, self.rows, self.chunk, self.summed], sort_keys=True)
+        text = json.dumps([by_content(self.plan), self.rows, self.chunk, self.summed], sort_keys=True)
         return sha256(text.encode()).hexdigest()[:16]
 
     def part(self, number: int, seed: int) -> Chunk:

@@ -193,6 +193,12 @@ class Runs(Result):
         held = np.atleast_2d(self.lock_time)
         return held if self.stopped is None else np.minimum(held, np.atleast_1d(self.stopped)[:, None])
 
+    @property
+    def first_contacts(self) -> tuple[Contact | None, ...]:
+        """(N,) what each run touches first; None where it touches nothing, or nobody looked."""
+        found = {c.run: c for c in reversed(self.contacts or ())}  # of each run the first comes last
+        return tuple(found.get(k) for k in range(len(self)))
+
     def counts(self) -> dict[str, int]:
         """How many runs ended in each way."""
         found = np.bincount(np.atleast_1d(self.code), minlength=len(Outcome))

@@ -38,10 +38,8 @@ def with_contacts(runs: Runs, clearance: Clearance, stop: bool) -> Runs:
 
 def _stopped(runs: Runs, clearance: Clearance) -> Runs:
     """Runs that end at their first contact: all joints are held from then on."""
-    assert runs.contacts is not None
-    stopped = np.full(len(runs), np.inf)
-    for contact in reversed(runs.contacts):  # of each run the first comes last
-        stopped[contact.run] = np.ceil(contact.time) if runs.cycles else contact.time
+    stopped = np.array([np.inf if contact is None else contact.time for contact in runs.first_contacts])
+    stopped = np.ceil(stopped) if runs.cycles else stopped
     runs = replace(runs, stopped=stopped)
     rows = np.flatnonzero(np.isfinite(stopped))
     if rows.size:

@@ -228,7 +228,8 @@ class InverseKinematics:
         accept: Accept | None = None,
     ) -> Reach:
         """As :meth:`solve` with joint, or joints, ``locked[i]`` of row i locked at ``angles[i]``; values are not wrapped."""
-        locked, angles = (x if x.ndim == 2 else x[:, None] for x in (locked, angles))
+        wide = locked.shape[1] if locked.ndim > 1 else 1
+        locked, angles = locked.reshape(-1, wide), angles.reshape(-1, wide)  # no rows are rows, too
         rows = np.arange(len(poses))[:, None]
         free = np.ones((len(poses), self.arm.n))
         free[rows, locked] = 0.0

@@ -10,6 +10,7 @@
     assess:                # every arm with every index, task, region and failure set
       indices: [relative-manipulability, manipulability]
       optimise: true
+      cell: bench.yaml     # as --cell; beside this file
     convergence:           # every arm with every law
       laws: [pseudoinverse, failure-tolerant:0.3]
 """
@@ -103,6 +104,7 @@ class _Assess(_Block):
     optimise: bool = False
     after_lock: bool = False
     clearance: bool | None = None
+    cell: str | None = None
     sampling: Literal["random", "sobol"] = "random"
     restarts: _Count = 100
     length: Number = 1.0
@@ -266,6 +268,7 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
             block.optimise,
             block.after_lock,
             clearance=block.clearance,
+            cell=None if block.cell is None else folder / block.cell,
         )
         if block.keep == "counts" and (plan.weighted or plan.after_lock):
             what = "poses have weights" if plan.weighted else "after_lock needs every pose"
@@ -275,17 +278,11 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
             data["seeds"] = f"as for an assessment, blocks of at most {place.block} poses counted anew in chunks of {chunk}"
         if block.keep == "counts":
             data["kind"] = "assess-counts"
-        labels: dict[str, Any] = {
-            "job": "assess",
-            "arm": label,
-            "index": index,
-            "task": measure.task.name,
-            "region": place.name,
-        }
-        labels |= {"failures": failures, "keep": block.keep, "optimise": block.optimise}
+        labels = {"job": "assess", "arm": label, "index": index, "task": measure.task.name, "region": place.name}
+        more = {"failures": failures, "keep": block.keep, "optimise": block.optimise}
         name = "-".join([label, index, *_said(task, region, failures)])
         job = AssessJob(data, rows, chunk, block.keep)
-        yield Cell(name, job, data, rows=rows, chunk=chunk, summed=block.keep == "counts", labels=labels)
+        yield Cell(name, job, data, rows=rows, chunk=chunk, summed=block.keep == "counts", labels=labels | more)
 
 
 def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]:
@@ -300,6 +297,8 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     block = model.assess
     if block is None:
         raise InputError(f"arms: there is no assess block for the designs of '{given.arm}'; give one (as 'assess: {{}}')")
+    if block.cell is not None:
+        raise InputError(f"assess.cell: designs of '{given.arm}' are not looked at in a cell; leave it out")
     for name in ("convergence", "workspace", "bank"):
         if getattr(model, name) is not None:
             raise InputError(f"arms: designs of '{given.arm}' cannot be swept in {name}; give that block in a file of its own")

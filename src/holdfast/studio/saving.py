@@ -1,8 +1,10 @@
-"""Pictures that a person saves: made beside the page, and handed to the browser as files."""
+"""What a person saves, pictures and the cell: made beside the page, and handed to the browser as files."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -42,7 +44,23 @@ class Saver:
         """Save nothing any more."""
         self._worker.stop()
 
-    def png(self) -> None:
+    def save(self, what: str, state: State, ghosts: list[NDArray[np.float64]]) -> None:
+        """The scene as ``png`` or ``svg``, or the ``cell-file``.
+
+        Args:
+            what: Which of them.
+            state: What is shown.
+            ghosts: Configurations (n,) of ghost arms.
+        """
+        match what:
+            case "png":
+                self._png()
+            case "svg":
+                self._svg(state, ghosts)
+            case _:
+                self._cell(state)
+
+    def _png(self) -> None:
         """The scene as the client's camera sees it, without the handles."""
         camera = self._client.camera
         height = min(PICTURE[0], int(camera.image_height))
@@ -59,21 +77,33 @@ class Saver:
             finally:
                 for handle in handles:
                     handle.visible = True
-            self._send("png", png(picture))
+            self._send(f"{self._machine.arm.name}.png", png(picture))
 
         self._worker.ask(job)
 
-    def svg(self, state: State, ghosts: list[NDArray[np.float64]]) -> None:
+    def _svg(self, state: State, ghosts: list[NDArray[np.float64]]) -> None:
         """A drawing of a state, with ghost arms at configurations (n,)."""
 
         def job(_: Callable[[], None]) -> None:
             from holdfast.studio.picture import drawing
 
-            self._send("svg", drawing(self._machine, state, ghosts).encode())
+            self._send(f"{self._machine.arm.name}.svg", drawing(self._machine, state, ghosts).encode())
 
         self._worker.ask(job)
 
-    def _send(self, kind: str, content: bytes) -> None:
-        name = f"{self._machine.arm.name}.{kind}"
+    def _cell(self, state: State) -> None:
+        """The cell with its objects where they are now; meshes and clouds are named by their whole paths."""
+
+        def job(_: Callable[[], None]) -> None:
+            from holdfast.cell import cell_file
+
+            cell = self._machine.cell_with(state.moved)
+            name = f"{re.sub(r'[^A-Za-z0-9._-]+', '-', cell.name).strip('-.') or 'cell'}.yaml"
+            content = cell_file.text(cell.to_dict()).encode()
+            self._send(name, content, f" From its folder: {replace(state, cell=name, moved=()).to_command()}")
+
+        self._worker.ask(job)
+
+    def _send(self, name: str, content: bytes, more: str = "") -> None:
         self._client.send_file_download(name, content, save_immediately=True)
-        self._saved(f"Saved {name}.")
+        self._saved(f"Saved {name}.{more}")

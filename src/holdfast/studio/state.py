@@ -37,6 +37,7 @@ class State:
         region: A results folder of ``assess``, or None: then a region around the end effector.
         time: Where a motion is shown, s (or whatever its first column counts).
         cell: A cell file, or None: no objects.
+        meshes: A folder in which meshes that the arm's file names are looked for first, or None.
         moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
     """
 
@@ -59,6 +60,7 @@ class State:
     region: str | None = None
     time: float = 0.0
     cell: str | None = None
+    meshes: str | None = None
     moved: tuple[tuple[str, tuple[float, ...]], ...] = ()
 
     def __post_init__(self) -> None:
@@ -104,7 +106,8 @@ class State:
             out += [f"--law={law}" for law in self.laws]
         if self.target is not None:
             out.append(f"--target={','.join(repr(float(x)) for x in self.target)}")
-        for option, text in (("file", self.file), ("region", self.region), ("cell", self.cell)):
+        for option in ("file", "region", "cell", "meshes"):
+            text = getattr(self, option)
             out += [] if text is None else [f"--{option}={text}"]
         out += [f"--move={name}={','.join(repr(float(x)) for x in numbers)}" for name, numbers in self.moved]
         if self.time:

@@ -98,6 +98,8 @@ class Window(View):
             action(value)
         elif what in ("take0", "take1"):
             self._take(int(what[-1]))
+        elif what in ("png", "svg", "cell-file"):
+            self._saver.save(what, self.state, list(self.player.ghosts))
         else:  # a choice that is a field of the state
             self.state = replace(self.state, **{what: value})
             self._refresh()
@@ -384,12 +386,6 @@ class Window(View):
         self._guide.end()
 
     # ---- showing ---------------------------------------------------------------------------------------------------
-
-    def _on_png(self, _: Any) -> None:
-        self._saver.png()
-
-    def _on_svg(self, _: Any) -> None:
-        self._saver.svg(self.state, list(self.player.ghosts))
 
     def _on_labels(self, value: bool) -> None:
         self.stage.show_labels(value)

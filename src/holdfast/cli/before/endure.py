@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -14,10 +15,12 @@ from holdfast.cli.clearance import (
     CellOption,
     ClearanceOption,
     MarginOption,
+    MeshesOption,
     RadiusOption,
     check_clearance,
     read_kept,
 )
+from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -30,6 +33,7 @@ from holdfast.cli.options import (
     check_unit_of_places,
     read_arm,
     read_configuration,
+    read_objective,
     read_task,
 )
 from holdfast.grammar import TASKS
@@ -61,10 +65,20 @@ def command(
     duration: Annotated[
         float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
     ] = None,
+    compare: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--compare",
+            help=f"Another motion beside it: least-norm, or what gradient projection serves: {OBJECTIVES}. May be given again.",
+            show_default=False,
+        ),
+    ] = None,
+    inject: Annotated[int, typer.Option("--inject", min=0, help="Try so many locks at random times.")] = 0,
     cell: CellOption = None,
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     margin: MarginOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
@@ -79,21 +93,28 @@ def command(
 
     Example: holdfast endure panda line.yaml --out endured
     """
+    from holdfast.arm.task import task_of_path
+    from holdfast.endurance.comparison import LEAST_NORM
+
     check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
     timed = hf.paths.TimedPath.load(path, duration)
     check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
+    rows = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
     result = hf.endure(
         model,
         timed,
         rates=None if rates is None else hf.FailureRates.load(model, rates),
         mode=mode,  # type: ignore[arg-type]
-        task=None if task is None else read_task(task, arm, model),
+        task=rows,
         samples=samples,
         spacing=spacing,
         start=None if start is None else read_configuration(model, start, degrees),
         seed=seed,
-        clearance=read_kept(model, clearance, capsules, radius, margin, cell),
+        clearance=read_kept(model, clearance, capsules, radius, margin, cell, meshes),
         margin=margin or 0.0,
+        compare=[other if other == LEAST_NORM else read_objective(model, "--compare", other, rows) for other in compare or []],
     )
+    if inject:
+        result = replace(result, injected=result.inject(inject, seed=seed))
     printed(result, json_, ([] if csv is None else [result.to_csv(csv)]) + drawn(result, plot, out))

@@ -14,6 +14,7 @@ from holdfast.cli.clearance import (
     CellOption,
     ClearanceOption,
     MarginOption,
+    MeshesOption,
     RadiusOption,
     check_clearance,
     read_kept,
@@ -104,6 +105,7 @@ def command(
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     margin: MarginOption = None,
     no_limits: Annotated[bool, typer.Option("--no-limits", help="Ignore joint limits while moving.")] = False,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
@@ -153,7 +155,7 @@ def command(
         seed=seed,
         best=best,
         torque_bound=torque_bound,
-        clearance=read_kept(model, clearance, capsules, radius, margin, cell),
+        clearance=read_kept(model, clearance, capsules, radius, margin, cell, meshes),
         margin=margin or 0.0,
     )
     files = [] if csv is None else [result.to_csv(csv)]

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -51,6 +51,7 @@ def command(
     cell: TouchedCellOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -77,6 +78,6 @@ def command(
         duration=duration,
         brake_after=tuple(brake) if brake else BRAKES,
         limits=limits,
-        clearance=read_contact_shape(model, capsules, radius, cell),
+        clearance=read_contact_shape(model, capsules, radius, cell, meshes),
     )
     printed(swing, json_, ([] if csv is None else [swing.to_csv(csv)]) + drawn(swing, plot, out))

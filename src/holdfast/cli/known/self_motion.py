@@ -56,6 +56,7 @@ def command(
     clearance: apart.ClearanceOption = None,
     capsules: apart.CapsulesOption = None,
     radius: apart.RadiusOption = None,
+    meshes: apart.MeshesOption = None,
     margin: apart.MarginOption = None,
     cell: apart.CellOption = None,
     base: BaseOption = None,
@@ -82,7 +83,7 @@ def command(
         raise InputError("give the target by --target or by --pose, one of them")
     wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
     asked = margin is not None or cell is not None
-    kept = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=asked, cell=cell)
+    kept = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=asked, cell=cell, meshes=meshes)
     motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed, clearance=kept, margin=margin or 0.0)
     if kept is not None and (bounds or motion.redundancy == 1):
         motion = replace(motion, bounds=motion.arcs())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import CellOption
+from holdfast.cli.clearance import CellOption, MeshesOption
 from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
@@ -75,6 +75,7 @@ def command(
         str | None, typer.Option("--region", help="A results folder that assess wrote.", show_default=False)
     ] = None,
     cell: CellOption = None,
+    meshes: MeshesOption = None,
     move: Annotated[
         list[str] | None,
         typer.Option(
@@ -109,10 +110,12 @@ def command(
     from holdfast.arm.task import as_task, target_pose
     from holdfast.cell.cell import Cell
     from holdfast.cli.laws import read_law
+    from holdfast.shapes.reading import with_meshes
     from holdfast.studio.server import serve
     from holdfast.studio.state import SHOWS, State
 
     model = read_arm(arm, base, tip, hold)
+    model = model if meshes is None else with_meshes(model, meshes)
     text = default_task(arm, model) if task is None else task
     rows = as_task(model, read_task(text, arm, model))
     INDICES.read(index, "--index")
@@ -154,6 +157,7 @@ def command(
         region=region,
         time=time,
         cell=None if cell is None else str(cell),
+        meshes=None if meshes is None else str(meshes),
         moved=_moved(move or []),
     )
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import holdfast as hf
+from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
 from holdfast.cli.options import (
     ArmArgument,
@@ -71,6 +72,10 @@ def command(
     speed_limit: SpeedLimitOption = None,
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
+    cell: TouchedCellOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -100,7 +105,9 @@ def command(
         q0, goal = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
         about = f"one motion of '{model.name}'"
     chosen = None if failures == "none" else read_failures(model, failures)
-    result = hf.compare_laws(laws, q0, goal, failures=chosen, cycles=cycles, time_limit=time_limit, seed=seed, about=about)
+    touched = read_contact_shape(model, capsules, radius, cell, meshes)
+    alike: dict[str, Any] = {"cycles": cycles, "time_limit": time_limit, "seed": seed, "about": about, "clearance": touched}
+    result = hf.compare_laws(laws, q0, goal, failures=chosen, **alike)
     printed(result, json_, [] if out is None else result.save(out, command=said()))
 
 

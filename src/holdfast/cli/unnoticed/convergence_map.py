@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import holdfast as hf
+from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
 from holdfast.cli.progress import progress_bar
@@ -20,6 +23,10 @@ def command(
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     time_limit: measures.MapTimeOption = None,
+    cell: TouchedCellOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -34,8 +41,8 @@ def command(
     """
     made = law_of(law, arm, task, base, tip, hold)
     targets, places = read_targets(made, target), read_places(starts)
+    touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
     with progress_bar(json_, "runs") as progress:
-        result = hf.convergence_map(
-            made, targets, places, configurations=configurations, over=over, time_limit=time_limit, seed=seed, progress=progress
-        )
+        drawn: dict[str, Any] = {"configurations": configurations, "over": over, "seed": seed}
+        result = hf.convergence_map(made, targets, places, time_limit=time_limit, clearance=touched, progress=progress, **drawn)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
@@ -63,6 +63,7 @@ def command(
     cell: TouchedCellOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     stop_at_contact: Annotated[
         bool, typer.Option("--stop-at-contact", help="With --cell: the run ends where the arm first touches an object.")
     ] = False,
@@ -86,7 +87,7 @@ def command(
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
-    touched = read_contact_shape(made.arm, capsules, radius, cell)
+    touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
     if stop_at_contact and touched is None:
         raise InputError("--stop-at-contact has nothing to stop at; add --cell")
     locked = read_locks(made.arm, lock, degrees, failure=failure) if failure else joints

@@ -13,6 +13,7 @@ from holdfast.convergence.law_comparison import HEALTHY, LawComparison
 from holdfast.files.output import made, writing
 from holdfast.files.spreadsheet import cell
 from holdfast.notice import says
+from holdfast.present.clearance.shape import shape_text
 from holdfast.present.convergence.law_figures import error_figure, gains_figure, healthy_figure, outcome_figure
 from holdfast.present.convergence.law_rows import (
     OUTCOME_HEAD,
@@ -25,6 +26,7 @@ from holdfast.present.convergence.law_rows import (
     run_rows,
     signed,
     time_unit,
+    touch_rows,
     within_reach,
 )
 from holdfast.present.story import how
@@ -62,6 +64,7 @@ def build(c: LawComparison, command: str = "") -> Page:
         Section("Which converge", _outcomes(c)),
         Section(f"What the others gain over {c.names[0]}", _gains(c)),
         Section("How far off the target", _errors(c)),
+        *([Section("What they touch on the way", _touches(c))] if c.clearance is not None else []),
         Section("What it costs while nothing has failed", _healthy(c)),
     ]
     return Page(
@@ -109,6 +112,15 @@ def _alerts(c: LawComparison) -> list[Callout]:
                 f"Joint limits are reported, not enforced: up to {percent(past)} of the runs of a law pass one, where a real "
                 "arm would stop.",
                 title="Joint limits",
+            )
+        )
+    touching = max(float(np.mean([x is not None for x in r.first_contacts])) for r in c.runs)
+    if touching > 0:
+        found.append(
+            Callout(
+                f"Contacts are reported, not enforced: up to {percent(touching)} of the runs of a law touch something, where a "
+                "real arm would stop.",
+                title="Contacts",
             )
         )
     return found
@@ -215,6 +227,17 @@ def _errors(c: LawComparison) -> list[Block]:
     ]
 
 
+def _touches(c: LawComparison) -> list[Block]:
+    assert c.clearance is not None
+    found = touch_rows(c)
+    caption = (
+        f"{counted(len(c), 'motion')} each; exact intervals. Looked at from instant to instant, and between them until half a "
+        "millimetre is all that could change; of a run that never stops the first 200/Ke. Distances are lower bounds: at most "
+        "so many touch, and no contact is missed. In brackets: of all runs, those that touch it first."
+    )
+    return [Table([list(row) for row in found.rows], found.head, frozenset(range(2, 5)), caption=caption, wide=True)]
+
+
 def _healthy(c: LawComparison) -> list[Block]:
     if not c.comparable.any():
         return [Text("No motion converges under every law while the arm is healthy, so there is nothing to compare.")]
@@ -241,6 +264,7 @@ def _method(c: LawComparison) -> list[Block]:
             f"control cycles, at most {first._setting.limit:g}" if first.cycles else f"at most {first._setting.limit:g} s",
         ),
         ("Converged", f"error at most {c.accuracy:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
+        *([] if c.clearance is None else [("Contacts", f"with {shape_text(c.clearance, 0.0)}")]),
         ("Undecided", "; ".join(f"{n}: {_reasons(c, n)}" for n in c.names)),
     ]
     return how(c.arm, *facts)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.convergence.law_comparison import ANY, HEALTHY, LawComparison
+from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, print_rows
 from holdfast.simulation.runs import Outcome
 from holdfast.words import fixed, percent
@@ -34,6 +36,8 @@ def to_dict(c: LawComparison) -> dict[str, Any]:
     }
     if pairs(c):
         data["gains"] = gain_rows(c)
+    if c.clearance is not None:
+        data["clearance"] = shape_summary(c.clearance, 0.0)
     return data
 
 
@@ -66,6 +70,9 @@ def show(c: LawComparison, out: Console) -> None:
             [r["law"], r["failure"], f"{signed(r, 'gain', 100.0, 1)} points", signed(r, "error", 1.0, 4)] for r in gain_rows(c)
         ]
         print_rows(out, Rows(["law", "locked", f"converge, more than with {c.names[0]}", f"end error, {size}"], rows))
+    if c.clearance is not None:
+        print_rows(out, touch_rows(c))
+        out.print(f"contacts are reported, not enforced; {shape_text(c.clearance, 0.0)}", soft_wrap=True)
     if c.comparable.any():
         shown = (("deviation", "_m", "m", 3), ("angle", "_deg", "deg", 1), ("time", "", time_unit(c), 2))
         rows = [
@@ -87,6 +94,19 @@ def outcome_cells(row: dict[str, Any]) -> list[str]:
         interval,
         *(percent(row[x]) for x in (*OUTCOMES[1:], "reachable")),
     ]
+
+
+def touch_rows(c: LawComparison) -> Rows:
+    """Of each law and failure: how many runs touch something, how many converge and do not, and what is touched first."""
+    rows = []
+    for r in c.table:
+        first = Counter(x.object for x in c.case(r["law"], r["failure"]).contacts or () if x is not None).most_common(2)
+        things = ", ".join(f"{thing} ({percent(count / len(c))})" for thing, count in first)
+        interval = f"{percent(r['touched_low'])} to {percent(r['touched_high'])}"
+        rows.append(
+            [r["law"], r["failure"], percent(r["touched"]), interval, percent(r["converged_clear"]), things or "nothing"]
+        )
+    return Rows(["law", "locked", "touch something", "95 % interval", "converge and touch nothing", "touched first"], rows)
 
 
 def signed(row: dict[str, Any], of: str, factor: float, digits: int) -> str:
@@ -197,5 +217,10 @@ def run_rows(c: LawComparison) -> list[dict[str, Any]]:
         for k in range(len(c)):
             row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motion": k, "outcome": OUTCOMES[case.code[k]]}
             row |= {"reachable": int(case.reachable[k])} | {of: f"{getattr(case, of)[k]:.9g}" for of in _OF_A_RUN}
-            rows.append(row | {"past_limits": int(case.past_limits[k])})
+            row["past_limits"] = int(case.past_limits[k])
+            if case.contacts is not None:
+                touch = case.contacts[k]
+                row |= {"touched_at": "", "link": "", "object": ""}
+                row |= {} if touch is None else {"touched_at": f"{touch.time:.9g}", "link": touch.link, "object": touch.object}
+            rows.append(row)
     return rows

@@ -14,6 +14,7 @@ from holdfast.convergence.maps import ConvergenceMap
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
 from holdfast.present import results
+from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.convergence.places import panels
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _ENDS = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
-_WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
 _ENDINGS = (
     "converges",
     "not there, target in reach",
@@ -41,7 +41,7 @@ _ENDINGS = (
 def to_dict(m: ConvergenceMap) -> dict[str, Any]:
     """Facts of a map as JSON types."""
     shares: dict[str, Any] = {}
-    for word in _WORDS:
+    for word in m.words:
         shares[word] = {name: {"fraction": s.value, "low": s.low, "high": s.high} for name, s in m.shares(word).items()}
     return {
         **m.law.arm.entry(),
@@ -56,7 +56,7 @@ def to_dict(m: ConvergenceMap) -> dict[str, Any]:
         "confidence": 0.95,
         "limits_passed_fraction": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
         "fractions": shares,
-    }
+    } | ({} if m.clearance is None else {"clearance": shape_summary(m.clearance, 0.0)})
 
 
 def key_table(m: ConvergenceMap) -> Rows:
@@ -109,6 +109,12 @@ def story(m: ConvergenceMap) -> Story:
         )
     facts += [(percent(converged[none].value), "with no joint locked")] if converged[none].value else []
     facts += [(percent(caught), "do not get there although the target is still within reach")] if caught else []
+    if m.touched is not None:
+        touched = m.shares("touched")
+        some = float(np.mean([touched[name].value for name in joints]))
+        said = "of the motions touch something on the way at most, mean over the joint that locks, and a real arm would stop"
+        facts += [(percent(some), said)] if some else []
+        answer += f" On the way {percent(some) if some else 'none'} of those with a joint locked touch something."
     return Story(
         title,
         answer,
@@ -150,6 +156,7 @@ def _method(m: ConvergenceMap) -> list[tuple[str, str]]:
             "the arm reached it, or a configuration within the limits was found with the joint locked as it is",
         ),
         ("Intervals", "95 %; the unit is the place, whose motions resemble each other"),
+        *([] if m.clearance is None else [("Contacts", f"reported, not enforced; {shape_text(m.clearance, 0.0)}")]),
         ("Seed", str(m.seed)),
     ]
 
@@ -158,14 +165,15 @@ def tables(m: ConvergenceMap) -> list[Rows]:
     """How the motions end with each joint locked."""
     if not m.known.any():
         return []
-    ends = {word: m.shares(word) for word in _WORDS if word != "in_reach"}
+    ends = {word: m.shares(word) for word in m.words if word != "in_reach"}
     rows = []
     for name in m.columns:
         whole, *parts = (f"{100 * end[name].value:.1f} %" for end in ends.values())
         rows.append(
             [name, whole, f"{100 * ends['converged'][name].low:.1f} to {100 * ends['converged'][name].high:.1f}", *parts]
         )
-    return [Rows(["locked", "converged", "95 % interval", "stuck", "moving", "undecided", "not there, in reach"], rows)]
+    head = ["locked", "converged", "95 % interval", "stuck", "moving", "undecided", "not there, in reach"]
+    return [Rows([*head, *(() if m.touched is None else ("touch something",))], rows)]
 
 
 def next_steps(m: ConvergenceMap, name: str) -> list[str]:
@@ -177,8 +185,8 @@ def next_steps(m: ConvergenceMap, name: str) -> list[str]:
 @says("writing the results")
 def save(m: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
     """``map.csv`` (a line for each place), ``map.json``, the figures and the page."""
-    columns = ["motions", *(f"{word}_{name}" for word in _WORDS for name in m.columns)]
-    values = [m.known.sum(axis=1), *(m.values(word) for word in _WORDS)]
+    columns = ["motions", *(f"{word}_{name}" for word in m.words for name in m.columns)]
+    values = [m.known.sum(axis=1), *(m.values(word) for word in m.words)]
     files = save_places(folder, "map", m.places, columns, values, m.to_dict())
     return files + results.save(m, folder, command, dpi=130)
 
@@ -211,6 +219,7 @@ def _bars(title: str, m: ConvergenceMap) -> Stack:
 def drawings(m: ConvergenceMap) -> Drawings:
     """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
     rows = {"converges": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
+    rows |= {} if m.touched is None else {"touches something": 100 * m.values("touched")}
     rows = {name: v[:, :-1] for name, v in rows.items()}
     target = m.target[m.known][:, :3, 3]
     alone = m.over == "starts" and len(np.unique(target, axis=0)) == 1

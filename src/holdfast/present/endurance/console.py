@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
 from holdfast.words import capitalised, number, percent
 
 if TYPE_CHECKING:
     from holdfast.endurance.endurance import Endurance
+    from holdfast.endurance.injection import Injection
 
 
 def to_dict(e: Endurance) -> dict[str, Any]:
@@ -43,9 +46,24 @@ def to_dict(e: Endurance) -> dict[str, Any]:
             "mean_linear_m_per_s": e.jump.mean_linear,
             "mean_angular_rad_per_s": e.jump.mean_angular,
         },
+        "beside": {other.name: other.survival for other in e.beside},
+        "injected": None if e.injected is None else _injected(e.injected),
         "time_s": e.time,
         "survival_at": e.curve(),
         "q": e.q,
+    }
+
+
+def _injected(tried: Injection) -> dict[str, Any]:
+    p = tried.interval
+    return {
+        "locks": len(tried.time),
+        "survived": p.value,
+        "low": p.low,
+        "high": p.high,
+        "confidence": p.confidence,
+        "alike": tried.alike,
+        "disagreements": tried.disagreements,
     }
 
 
@@ -73,15 +91,24 @@ def tables(e: Endurance) -> list[Rows]:
     """Survival of each joint."""
     share = e.rates.each / e.rates.total
     rows = [[name, percent(s), percent(x)] for (name, x), s in zip(e.by_joint.items(), share, strict=True)]
-    return [Rows(["joint", "part of all locks", "of its locks survived"], rows, "Survival by joint")]
+    found = [Rows(["joint", "part of all locks", "of its locks survived"], rows, "Survival by joint")]
+    if e.beside:
+        mine = "most locks survived" if e.found is not None else "this motion"
+        others = [[other.name, percent(other.survival), percent(other.off)] for other in e.beside]
+        each = [[mine, percent(e.survival), percent(0.0)], *others]
+        found.append(Rows(["motion", "locks survived", "off the path"], each, "Other motions along the path"))
+    return found
 
 
 def story(e: Endurance) -> Story:
     """How many locks are survived, and how many could be."""
-    first, *others = map(capitalised, e.describe())
+    _, *lines = map(capitalised, e.describe())
     answer = f"{capitalised(e.headline)}"
     if e.found is not None and not e.guaranteed:
         answer += f"; no motion along this path survives more than {percent(e.found.bound)}"
+    if e.beside:
+        other = max(e.beside, key=lambda x: x.survival)
+        answer += f"; of the motions beside it {other.name} survives most, {percent(other.survival)}"
     facts = [(percent(e.survival), "of the locks on the way are survived")]
     if e.found is not None:
         facts.append((percent(e.found.bound), "is the most that any motion could survive, up to the grid"))
@@ -93,9 +120,16 @@ def story(e: Endurance) -> Story:
         f"{answer}.",
         about=about,
         facts=[fact for fact in facts if fact[0] != "0 %"],
-        lines=[f"{line}." for line in (first, *others)],
+        lines=[f"{line}." for line in lines],
+        views=_moving(e),
         figures={
-            "survival": ("Survival over time", "Probability that the rest of the path can be followed if a joint locks now.")
+            "survival": ("Survival over time", "Probability that the rest of the path can be followed if a joint locks now."),
+            "map": (
+                "Which locks are survivable where",
+                "All configurations found of every pose, by the joint that self-motion moves most; of several with the same "
+                "value the best. Line: the motion. First the part of all locks that is survivable there, then for each joint "
+                "whether its lock is (yellow).",
+            ),
         },
         tables=[key_table(e), *tables(e)],
         method=[
@@ -106,3 +140,21 @@ def story(e: Endurance) -> Story:
         ],
         arm=e.arm,
     )
+
+
+def _moving(e: Endurance) -> list[tuple[str, list[Any]]]:
+    """The arm on its way."""
+    from holdfast.present.arm.view import scene
+    from holdfast.report.page import Picture
+
+    curve = e.curve()
+    shown = scene(
+        e.arm,
+        e.q,
+        time=np.linspace(0.0, e.time[-1], len(e.time)),
+        path=e.poses[:, :3, 3],
+        readings=[f"{t:.2f} s, {percent(p)} of the locks survived" for t, p in zip(e.time, curve, strict=True)],
+        cell=None if e.kept is None else e.kept[0].cell,
+    )
+    picture = Picture(shown.html("motion", f"{e.arm.name} moving along its path"), "The arm on its path (orange).")
+    return [("The motion", [picture])]

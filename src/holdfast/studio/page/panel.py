@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 Handler = Callable[[Any], None]
 MARK = "✓ "  # before the state that a joint is in: the page shows that button as pressed
 WELCOME = "Drag the handle at the end effector, lock a joint, or drop a file of your own arm here."
-ALWAYS = ("skip", "png", "svg", "file", "results")  # what can be done before anything is known
+ALWAYS = ("skip", "png", "svg", "cell-file", "file", "results")  # what can be done before anything is known
 MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 
@@ -154,6 +154,7 @@ class Panel:
         )
         self._button("PNG of the scene", "png")
         self._button("SVG drawing, side and top view", "svg")
+        self._button("Save the cell", "cell-file", visible=self.machine.cell is not None)
         for label, what in (("ellipsoids and lost directions", "losses"), ("names of the joints", "labels")):
             self._on(self.gui.add_checkbox(label, True).on_update, what, lambda h: h.value)
         self.gui.add_html(_line("This command line brings the view back:"))

@@ -119,8 +119,12 @@ class Machine:
             if self._clear is None:
                 self._clear = Clearance.by_default(self.arm, self.cell)
             assert self._clear is not None
-            poses = {name: pose_of(numbers[:3], numbers[3:]) for name, numbers in moved}
-            return self._clear.with_cell(self.cell.with_poses(poses)) if poses else self._clear
+            return self._clear.with_cell(self.cell_with(moved)) if moved else self._clear
+
+    def cell_with(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Cell:
+        """The cell, of an arm that has one, with objects where they were moved to."""
+        assert self.cell is not None
+        return self.cell.with_poses({name: pose_of(numbers[:3], numbers[3:]) for name, numbers in moved})
 
     # ---- what a failure takes --------------------------------------------------------------------------------------
 
