@@ -9,10 +9,10 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.clearance.exact.engines import installed
 from holdfast.arm.task import as_task
+from holdfast.clearance.exact.engines import installed
 from holdfast.recovery import Ending, search
-from holdfast.recovery.proofs import telling_first
+from holdfast.recovery.proofs import listed, proved_by, telling_first
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.verification import Verification, row_errors, tool_poses, verify
 
@@ -66,9 +66,13 @@ def test_a_spoilt_motion_is_refused(moved, three, spoil, fault):
     assert fault in str(found)
 
 
+def slim(arm, thing):
+    return hf.Clearance(arm, hf.Capsules.along(arm, 0.02), hf.Cell([thing]), itself=False)
+
+
 def test_a_motion_into_an_object_is_refused(moved, three):
     tip = three.forward_kinematics(moved.q.mean(axis=0))[:3, 3]
-    shape = hf.Clearance(three, hf.Capsules.along(three, 0.02), hf.Cell([hf.cell.Sphere("ball", 0.05, pose=tip)]), itself=False)
+    shape = slim(three, hf.cell.Sphere("ball", 0.05, pose=tip))
     rows = row_solver(three, moved.task).rows
     found = verify(moved.degraded, HOME, moved.q, rows=rows, clearance=shape)
     assert not found.ok
@@ -122,10 +126,11 @@ def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
 def test_that_every_configuration_touches_something_is_a_proof(three):
     """Two circles meet in two points, and the target is inside a ball."""
     goal = placed(1.5, -1.0)
-    cell = hf.Cell([hf.cell.Sphere("ball", 0.2, pose=[1.5, -1.0, 0.0])])
-    found = hf.recover(three, ["joint2"], HOME, goal=goal, cell=cell, task="planar", samples=0)
-    assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "boxes")
-    assert "each of its 2 configurations touches something" in found.verdict.why
+    shape = slim(three, hf.cell.Sphere("ball", 0.2, pose=[1.5, -1.0, 0.0]))
+    every = listed(hf.Degraded(three, locked={"joint2": 0.6}), as_task(three, "planar"), goal, np.inf)
+    assert "each of its 2 configurations touches something" in str(proved_by(every, shape))
+    assert proved_by(every, None) is None
+    assert proved_by(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
 
 
 def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
