@@ -115,7 +115,7 @@ class Draw:
             q = rng.uniform(low, high, (40, self.arm.n))
             good = np.flatnonzero(self.clear(q))
             if good.size:
-                return q[good[0]]
+                return np.asarray(q[good[0]])
         raise NothingDrawn
 
     def pointing_down(self, low: Array, high: Array, rng: Rng) -> Array:
@@ -130,7 +130,7 @@ class Draw:
             inside = ((q >= low) & (q <= high) | ~free).all(axis=1)
             good = np.flatnonzero(inside & self._down.meets(q, poses, kept, free) & self.clear(q))
             if good.size:
-                return q[good[0]]
+                return np.asarray(q[good[0]])
         raise NothingDrawn
 
 

@@ -92,7 +92,7 @@ def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) ->
 
 
 def _differential(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng, restarts: int = 1) -> Attempt:
-    """Newton's method from pose to pose, joints kept within their limits; from where the arm is, then by way of others."""
+    """Newton's method from pose to pose, joints kept within their limits; from the start, then by way of others."""
     for way in _ways(case, restarts, rng):
         if limit.over:
             break

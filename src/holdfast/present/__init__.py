@@ -20,7 +20,7 @@ PRESENTERS = {
     "ConvergenceMap": ("convergence.maps", "convergence.maps"),
     "Curves": ("equilibria.curves", "equilibria.curves"),
     "Designs": ("designs.console", "designs.page"),
-    "FailActive": ("bench.console", "bench.figures"),
+    "FailActive": ("bench.console", "bench.page"),
     "Endurance": ("endurance.console", "endurance.page"),
     "FreeSwing": ("physics.swing", "physics.swing"),
     "Law": ("control.law", ""),
