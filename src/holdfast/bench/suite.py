@@ -72,9 +72,9 @@ class Score:
         return Interval.of(self.solved, self.cases)
 
     @property
-    def success_of_feasible(self) -> Interval:
-        """Share of the cases that are not proved infeasible."""
-        return Interval.of(self.solved, max(self.feasible, self.solved))
+    def success_of_feasible(self) -> Interval | None:
+        """Share of the cases that are not proved infeasible; None if all are."""
+        return Interval.of(self.solved, self.feasible) if self.feasible else None
 
     @property
     def decided(self) -> Interval:

@@ -9,6 +9,7 @@ import numpy as np
 from holdfast.bench.suite import FailActive, Score
 from holdfast.present.printing import Rows, number
 from holdfast.present.story import Story
+from holdfast.probability.intervals import Interval
 from holdfast.words import counted, interval, percent
 
 DEFT = "arXiv 2602.02895"
@@ -39,15 +40,20 @@ def rows(found: FailActive) -> list[dict[str, Any]]:
     ]
 
 
-def _ends(name: str, p: Any) -> dict[str, float]:
-    return {name: p.value, f"{name}_low": p.low, f"{name}_high": p.high}
+def _ends(name: str, p: Interval | None) -> dict[str, float | None]:
+    ends = (None, None, None) if p is None else (p.value, p.low, p.high)
+    return dict(zip((name, f"{name}_low", f"{name}_high"), ends, strict=True))
+
+
+def _of_feasible(score: Score) -> str:
+    return "–" if score.success_of_feasible is None else interval(score.success_of_feasible)
 
 
 def key_table(found: FailActive) -> Rows:
     """How much each planner finishes."""
     return Rows(
         ["task", "planner", "solved", "of those not proved infeasible"],
-        [[place(s), s.method, f"{s.solved} of {s.cases}", interval(s.success_of_feasible)] for s in found.scores],
+        [[place(s), s.method, f"{s.solved} of {s.cases}", _of_feasible(s)] for s in found.scores],
     )
 
 
@@ -65,7 +71,7 @@ def tables(found: FailActive) -> list[Rows]:
             place(s),
             s.method,
             *map(str, (s.cases, s.solved, s.proved, s.argued, s.undecided, s.refused)),
-            interval(s.success_of_feasible),
+            _of_feasible(s),
             interval(s.decided),
             number(float(np.median(s.seconds)), 2),
             number(float(np.quantile(s.seconds, 0.95)), 2),
@@ -85,7 +91,7 @@ def story(found: FailActive) -> Story:
     """What the page says."""
     best = [s for s in found.scores if s.method == "recover"]
     solved, cases = (sum(getattr(s, name) for s in best) for name in ("solved", "cases"))
-    feasible = sum(max(s.feasible, s.solved) for s in best)
+    feasible = sum(s.feasible for s in best)
     answer = "Nothing was computed yet."
     if cases:
         answer = (
@@ -101,9 +107,9 @@ def story(found: FailActive) -> Story:
         f"Cases solved although they were proved infeasible: {wrong or 'none'}.",
     ]
     facts = [
-        (percent(s.success_of_feasible.value), f"{place(s)}, not proved infeasible")
+        (percent(p.value), f"{place(s)}, not proved infeasible")
         for s in best[:4]
-        if s.success_of_feasible.value
+        if (p := s.success_of_feasible) is not None and p.value
     ]
     figure = ("How the cases ended", "By task and planner; the line is the exact 95 % interval of the share that is solved.")
     method = [
