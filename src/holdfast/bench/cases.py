@@ -35,7 +35,7 @@ class Case:
     """One case.
 
     Attributes:
-        task: Its name, a key of :data:`TASKS`.
+        task: Its name, a key of ``TASKS``.
         degraded: What has failed.
         at: (n,) where the arm is, rad and m: within what is left, and clear.
         rows: Of the end effector's pose that matter.

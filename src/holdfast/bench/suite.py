@@ -178,7 +178,7 @@ def fail_active(
         out: Folder of the study, whose cases are written to ``cases.jsonl``.
         cell: Objects around the arm, or their file; every task is then done in it and without it.
         cases: Of each task that reaches a pose; of the others a tenth.
-        tasks: Some of :data:`holdfast.bench.cases.TASKS`; all if not given.
+        tasks: Some of ``holdfast.bench.cases.TASKS``; all if not given.
         planners: Some of ``recover``, ``differential-ik``, ``differential-ik-8-starts``, ``rrt-connect`` and
             ``ompl-rrt-connect`` (needs OMPL). The last two are asked to reach poses alone.
         seconds: Time limit of a case, on one thread.

@@ -134,7 +134,7 @@ def all_configurations(
         InputError: A pose, limits or numbers that are invalid.
         TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
 
-    Source: see :mod:`holdfast.enclosure.box_bounds`.
+    Source: interval Newton methods (Krawczyk 1969); the bounds are ours, derived in ``holdfast/enclosure/box_bounds.py``.
     """
     rows = as_task(arm, task)
     wanted = target_pose(rows, pose)

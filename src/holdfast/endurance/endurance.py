@@ -179,7 +179,7 @@ class Endurance(Result):
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """The best of the grid within the velocity limits, and with the spacing on top; see :class:`Found`."""
+        """The best of the grid within the velocity limits, and with the spacing on top; see ``found``."""
         return None if self.found is None else self.found.interval
 
     def curve(self) -> Array:

@@ -16,6 +16,7 @@ PRESENTERS = {
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "CellCheck": ("clearance.cell_check", ""),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),
+    "Configurations": ("enclosure.console", ""),
     "ConvergenceDesigns": ("designs.console", "designs.convergence"),
     "ConvergenceMap": ("convergence.maps", "convergence.maps"),
     "Curves": ("equilibria.curves", "equilibria.curves"),
