@@ -133,6 +133,24 @@ def test_that_every_configuration_touches_something_is_a_proof(three):
     assert proved_by(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
 
 
+def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about_what_touches(rng):
+    arm = hf.arms.load("panda")  # the tool point lies on joint 7, which a position leaves idle and a cell does not
+    q = rng.uniform(arm.lower, arm.upper)
+    locks = {k: q[k] for k in (0, 2, 4)}
+
+    class Touches:
+        """All configurations touch where joint 7 is in the middle."""
+
+        def sign(self, q):
+            return np.zeros(len(q), dtype=bool)
+
+    for more, sure in (({}, False), ({6: q[6]}, True)):
+        task = as_task(arm, "position")
+        every = listed(hf.Degraded(arm, locked=locks | more), task, arm.forward_kinematics(q), np.inf)
+        assert len(every.q)
+        assert (proved_by(every, Touches()) is not None) == sure
+
+
 def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
     arm = hf.arms.load("panda")
     for locks in (1, 2, 3):

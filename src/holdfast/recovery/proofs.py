@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from holdfast.arm.task import Task, plane_normal
 from holdfast.clearance.clearance import Clearance
 from holdfast.enclosure import Configurations, Finding, all_configurations
+from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
 from holdfast.recovery.bounds import out_of_reach
@@ -70,6 +71,8 @@ def proved_by(found: Configurations | None, clearance: Clearance | None) -> str 
         return None
     if not len(found.q):
         return f"no configuration within the limits meets it, by {found.boxes:,} boxes of joints, up to floating point"
+    if found.lower[-1] < found.upper[-1] and idle(found.arm, Parts.of(found.arm, found.task)):
+        return None  # the last joint was looked at in one place, and its turn may clear what touches
     try:
         if clearance is None or clearance.sign(found.q).any():
             return None
