@@ -48,8 +48,9 @@ def covered(arm, capsules, cell, q):
     return out.reshape(len(q), -1)
 
 
-@pytest.fixture
-def scene(rng):
+@pytest.fixture(scope="module")
+def scene(generator):
+    rng = generator("obstacles")
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
     return arm, hf.Capsules.along(arm, 0.03), random_cell(rng)
 

@@ -115,7 +115,7 @@ def story(found: FailActive) -> Story:
     method = [
         (
             "Cases",
-            f"{counted(sum(s.cases for s in found.scores), 'case')} with all planners, seed {found.study.seed}; in cases.jsonl",
+            f"{counted(sum(s.cases for s in found.scores), 'attempt')}, seed {found.study.seed}; in cases.jsonl",
         ),
         ("Times", "measured, on one thread"),
     ]
