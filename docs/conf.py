@@ -30,6 +30,7 @@ extensions = [
     "equations",
     "moved",
     "sidebar",
+    "wholes",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
@@ -48,7 +49,8 @@ nitpick_ignore_regex = [
     (r"py:.*", r"holdfast\.(studio\.scene|present\.arm)\.(machine|body)\..*"),
     (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
-    (r"py:class", r"_?Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
+    # What a run keeps so that it can be run again.
+    (r"py:class", r"_?Motion|Setting|RestSystem|holdfast\.endurance\.problem\.Problem"),
     (r"py:class", r"holdfast\.control\.export\._Law"),
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),

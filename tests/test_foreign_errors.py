@@ -61,6 +61,18 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     at_planar = {"arm": arm, "task": "planar"}
     urdf = str(DATA.joinpath("iiwa14.urdf"))
     found: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
+        "all_configurations": (
+            hf.all_configurations,
+            {
+                **at_planar,
+                "pose": target,
+                "limits": None,
+                "tolerance": 0.0,
+                "time_limit": 5.0,
+                "most_boxes": 100,
+                "first": True,
+            },
+        ),
         "assess": (
             hf.assess,
             {"arm": arm, "region": region, "index": index, "poses": 5, "seed": 0, "sampling": "random", "restarts": 2}

@@ -18,7 +18,17 @@ import holdfast
 ROOT = Path(holdfast.__file__).parent
 STUBS = sorted(ROOT.rglob("__init__.pyi"))
 PACKAGES = [".".join(("holdfast", *stub.parent.relative_to(ROOT).parts)) for stub in STUBS]
-MODULES = {"arms", "cell", "closed_form", "control", "indices", "paths", "registry", "susceptibility"}  # public modules
+MODULES = {
+    "arms",
+    "bench",
+    "cell",
+    "closed_form",
+    "control",
+    "indices",
+    "paths",
+    "registry",
+    "susceptibility",
+}  # public modules
 EXTRAS = ("teleop", "studio", "study.cluster", "simulate.mujoco", "arm.mjcf")  # need, or may need, what is not installed
 
 CHECK = """

@@ -33,7 +33,7 @@ def summary(name: str) -> str:
 class ClassPage(SphinxDirective):
     required_arguments = 1
     option_spec: ClassVar = dict.fromkeys(
-        ["members", "inherited-members", "undoc-members", "show-inheritance"], directives.unchanged
+        ["members", "exclude-members", "inherited-members", "undoc-members", "show-inheritance"], directives.unchanged
     )
 
     def run(self) -> list[nodes.Node]:

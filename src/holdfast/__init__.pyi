@@ -1,4 +1,5 @@
 from holdfast import arms as arms
+from holdfast import bench as bench
 from holdfast import cell as cell
 from holdfast import control as control
 from holdfast import indices as indices

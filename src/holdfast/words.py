@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Protocol
 
 import numpy as np
 
 _ZERO = 1e-9
+_UNIT = re.compile(r" (?=(?:%|°|(?:N m|[kcmµ]?m|m?s|min|h|rad|deg|k?N|k?g|k?Hz|W|J|[kMG]?B|px)(?![\w-])))")
+_ENDS = frozenset("0123456789∞–")  # what a number ends with
+_SMALL = re.compile(r"(?<![\w.])(\d[\d.]*e)-(?=\d)")  # a browser breaks lines behind a hyphen
+_PIECE = re.compile(r"(<code\b.*?</code>|<pre\b.*?</pre>|<[^>]*>)", re.DOTALL)
 
 
 class Probability(Protocol):
@@ -99,6 +104,20 @@ def on_one_line(text: str, most: int = 60) -> str:
 def counted(count: int, noun: str) -> str:
     """``1 pose``, ``2 poses``, ``2 boxes``."""
     return f"{count:,} {noun}" + ("" if count == 1 else "es" if noun.endswith(("x", "sh")) else "s")
+
+
+def together(text: str, html: bool = False) -> str:
+    """The text with no-break spaces between numbers and their units, so that no line ends there or within a number: for pages.
+
+    Args:
+        text: For people.
+        html: It is HTML; what is in tags, or to be copied, stays as it is.
+    """
+    if html:
+        parts = _PIECE.split(text)  # each second one is to stay
+        return "".join(part if k % 2 else together(part) for k, part in enumerate(parts))
+    found = _UNIT.sub(lambda space: "\u00a0" if text[max(space.start() - 1, 0)] in _ENDS else " ", text)
+    return _SMALL.sub(r"\1−", found.replace("\u00a0N m", "\u00a0N\u00a0m"))
 
 
 def duration(seconds: float) -> str:

@@ -173,6 +173,7 @@ def test_the_report_and_the_numbers_say_what_is_in_the_way(run, cell, tmp_path):
         "What the arm touches",
         "clear of the cell",
         "--cell cell.yaml --no-clearance",
+        "held there, clear of the cell (distances: lower bounds); so the fractions are lower bounds",
     ):
         assert part in page, part
 

@@ -181,7 +181,7 @@ def test_where_capsules_come_from():
 
 
 def test_the_report_says_what_was_counted(run, thick, tmp_path):
-    text = run.report(tmp_path / "r.html").read_text()
+    text = run.report(tmp_path / "r.html").read_text().replace("\u00a0", " ")
     found = run.collisions
     for part in (
         "Does the arm collide with itself?",
@@ -206,7 +206,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
 
 def test_an_assumed_shape_is_called_one(arm, tmp_path):
     guess = assess(arm, CLOSE, task="planar", poses=30, clearance=True)
-    text = guess.report(tmp_path / "r.html").read_text()
+    text = guess.report(tmp_path / "r.html").read_text().replace("\u00a0", " ")
     assert "The shape of the arm is an assumption" in text
     assert "assumed radius" in text
 

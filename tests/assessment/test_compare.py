@@ -15,7 +15,7 @@ from holdfast.arms.tool import attachment, attachment_text
 from holdfast.assessment import load_comparison
 from holdfast.present.assessment.comparison import build
 from holdfast.report.page import render
-from holdfast.words import interval
+from holdfast.words import interval, together
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -146,9 +146,9 @@ def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some)
     assert 0.05 in data["values"]
     answers = dict(zip(labels, data["answers"], strict=True))
     for name, run in zip(names, runs[some], strict=True):
-        assert answers.pop(name) == [interval(run.interval(at_least=x)) for x in data["values"]]
+        assert answers.pop(name) == [together(interval(run.interval(at_least=x))) for x in data["values"]]
         if run.optimised is not None:
-            told = [interval(run.interval(at_least=x, optimised=True)) for x in data["values"]]
+            told = [together(interval(run.interval(at_least=x, optimised=True))) for x in data["values"]]
             assert answers.pop(f"{name}, best configurations") == told
     # Who leads is said only of candidates with one task.
     assert list(answers) == ["Largest probability"] * (some.stop == 3)

@@ -211,7 +211,7 @@ def test_joints_not_named_keep_their_rule_or_are_left_out(arm, region, tmp_path)
 @pytest.mark.parametrize("after_lock", [False, True])
 def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_lock):
     run = hf.assess(arm, region, poses=210, task="planar", after_lock=after_lock, locked={2: -1.25})
-    html = run.report(tmp_path / "report.html").read_text()
+    html = run.report(tmp_path / "report.html").read_text().replace("\u00a0", " ")
     assert "−71.6 deg (−1.25 rad)" in html
     assert ("where it was at another pose" in html) == after_lock
     assert "Right: with joint" in html

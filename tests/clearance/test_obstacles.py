@@ -7,6 +7,7 @@ from tests import oracles
 
 import holdfast as hf
 from holdfast.cell import Box, Capsule, Cylinder, HalfSpace, Sphere
+from holdfast.clearance.objects.one_row import OneRow
 
 
 def at(x: float, y: float, z: float, turn=None) -> np.ndarray:
@@ -47,8 +48,9 @@ def covered(arm, capsules, cell, q):
     return out.reshape(len(q), -1)
 
 
-@pytest.fixture
-def scene(rng):
+@pytest.fixture(scope="module")
+def scene(generator):
+    rng = generator("obstacles")
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
     return arm, hf.Capsules.along(arm, 0.03), random_cell(rng)
 
@@ -122,6 +124,19 @@ def test_a_changed_cell_compiles_nothing(rng, scene):
     made = first.obstacles._formulas._distance_kernel.made_of
     assert made is not None
     assert made == second.obstacles._formulas._distance_kernel.made_of
+
+
+def test_one_row_after_the_other_has_the_same_bits(rng, scene):
+    arm, capsules, cell = scene
+    q = rng.uniform(arm.lower, arm.upper, (30, arm.n))
+    for around, itself in ((cell, True), (cell, False)):
+        clearance = hf.Clearance(arm, capsules, around, itself=itself)
+        rooms, slopes = clearance.nearest(q)
+        one = OneRow(clearance)
+        for row, room, slope in zip(q, rooms, slopes, strict=True):
+            found = one(row)
+            assert found[0] == room
+            np.testing.assert_array_equal(found[1], slope)
 
 
 def room_of_the_end(clearance, poses, values):

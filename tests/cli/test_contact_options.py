@@ -38,7 +38,7 @@ def test_a_run_says_what_it_touches(cli, ask, around, tmp_path):
     table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
     np.testing.assert_allclose(table["clearance_m"], 0.8 - 0.05 - np.sin(table["joint2_rad"]), atol=1e-12)
     assert np.interp(contact["time_s"], table["time_s"], table["clearance_m"]) == pytest.approx(0, abs=1e-4)
-    page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
     assert "What it touches" in page
     assert "At 0.4377 s joint2 touches wall" in page
@@ -71,7 +71,7 @@ def test_a_swing_ends_on_what_it_falls_on(cli, ask, tmp_path):
     code, out, _ = cli(*call, *around, "--out", tmp_path / "swing")
     assert code == 0
     assert "It lies against an object of the cell." in " ".join(out.split())
-    page = (tmp_path / "swing" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "swing" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
     assert "lies against table" in page
 
@@ -86,7 +86,7 @@ def test_a_path_is_followed_clear_of_a_cell(cli, refused, tmp_path):
     assert code == 0, err
     table = np.genfromtxt(tmp_path / "motion.csv", delimiter=",", names=True)
     assert table["clearance_m"].min() >= 0.01 - 1e-4
-    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
     assert "Smallest distance of any pair" in page
     assert "smallest clearance" in " ".join(out.split()).lower()

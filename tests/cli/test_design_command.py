@@ -57,7 +57,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     assert sum(int(r["on the front"]) for r in rows) == len(found["front"])
 
     # The report says what was found, and the command in it is one that the program takes.
-    page = (out / "report.html").read_text()
+    page = (out / "report.html").read_text().replace("\u00a0", " ")
     check(page)
     for words in ("What to build", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--fresh 60"):
         assert words in page, words

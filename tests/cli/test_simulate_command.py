@@ -52,7 +52,7 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     code, said, err = cli(*CALL, "--target", "0,1.7320508", "--out", out)
     assert (code, err) == (0, "")
     assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
-    page = (out / "report.html").read_text(encoding="utf-8")
+    page = (out / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
     assert "joint1 at the start that its controller does not know of, the arm stops 1.134 m off its target" in page
     assert "locked: joint1" in page
@@ -70,7 +70,7 @@ FAR = "--target=-0.217,0.028,0.034"  # reached by the law, through what the limi
 def test_reaching_the_target_and_keeping_the_limits_are_two_facts(cli, tmp_path):
     code, said, _ = cli(*PAST, FAR, "--out", tmp_path)
     assert code == 0
-    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     table = np.loadtxt(tmp_path / "run.csv", delimiter=",", skiprows=1)
     low, high = (np.degrees(f(table[:, 1:8], axis=0)) for f in (np.min, np.max))
     # Limits of the manufacturer's data sheet, degrees.
@@ -105,7 +105,7 @@ def test_a_lock_on_the_way_is_marked_from_then_on(cli, tmp_path):
     out = tmp_path / "run"
     code, _, _ = cli("simulate", "planar-3r", "--start", "0.3 0.7 1", "--target", "-0.5,1", "--lock", "2@0.5", "--out", out)
     assert code == 0
-    page = (out / "report.html").read_text(encoding="utf-8")
+    page = (out / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page)[1])
     assert data["locked"] == [None, 0.5, None]
     assert "locked" not in data["readings"][0]

@@ -66,7 +66,7 @@ def test_its_figures_are_given(found):
 
 
 def test_the_page_says_what_to_build(found):
-    page = render(report.build(found))
+    page = render(report.build(found)).replace("\u00a0", " ")
     check(page)
     for words in (
         "For 95 % of the poses of the region the best design keeps a relative manipulability of at least 0.38",
@@ -105,7 +105,7 @@ def test_nothing_better_and_nothing_at_all(found, rng):
     none = Checked(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
     lost = replace(found, checked=Check(none, none, 0.0))
     assert "guarantees any relative manipulability" in lost.headline
-    page = render(report.build(lost))
+    page = render(report.build(lost)).replace("\u00a0", " ")
     check(page)
     assert "Neither arm reaches a pose of the region" in page
 
@@ -132,7 +132,9 @@ def test_a_gain_that_does_not_last_is_no_gain(found, rng):
 
 
 def test_poses_that_only_the_best_design_loses_are_said(found, rng):
-    page = render(report.build(replace(found, checked=Check(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0))))
+    page = render(report.build(replace(found, checked=Check(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0)))).replace(
+        "\u00a0", " "
+    )
     assert "does not reach 4.0 % of the poses of the region, the given arm 0 %" in page
 
 

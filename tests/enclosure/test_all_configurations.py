@@ -152,6 +152,31 @@ def test_bad_input(panda, options, sentence):
         all_configurations(panda, np.eye(4), **options)
 
 
+@pytest.mark.parametrize(("types", "task", "free"), [("RRP", "position", 1), ("RRRPR", "position", 2), ("RRRRPR", "pose", 2)])
+def test_a_slide_outside_its_stroke_is_no_proof(types, task, free, generator):
+    """A lock may be anywhere: here 3 m out of a stroke of 0.05 m; what moves has the configuration by construction."""
+    rng, slide = generator(f"stroke {types}"), types.index("P")
+    for _ in range(10):
+        arm = oracles.random_arm(rng, types=types, limits=2.0)
+        stroke = np.where(np.arange(arm.n) == slide, 0.05, 2.0)
+        arm, q = arm.with_limits(-stroke, stroke), rng.uniform(-1, 1, arm.n)
+        q[slide] = 3.0
+        low, high = q.copy(), q.copy()
+        low[:free] -= 0.02
+        high[:free] += 0.8
+        pose = arm.forward_kinematics(q)
+        assert not all_configurations(arm, pose, task, limits=(low, high), first=True, time_limit=60).none
+
+
+def test_a_pose_tilted_out_of_the_plane_is_refused_and_one_in_it_is_not(rng):
+    arm, q = hf.arms.load("planar-3r"), rng.uniform(-2, 2, 3)
+    pose, tilted = arm.forward_kinematics(q), arm.forward_kinematics(q)
+    tilted[:3, :3] = tilted[:3, :3] @ [[1, 0, 0], [0, 0.6, -0.8], [0, 0.8, 0.6]]
+    assert np.abs(all_configurations(arm, pose, "planar-pose").q - q).max(axis=1).min() < 1e-6
+    with pytest.raises(hf.TaskError, match="tilted out of the arm's plane"):
+        all_configurations(arm, tilted, "planar-pose")
+
+
 def test_a_task_without_bounds_is_refused(panda):
     with pytest.raises(hf.TaskError, match="nothing can be proved about"):
         all_configurations(panda, np.eye(4), hf.arm.task.rows_task(["vx", "wy"], frame="tool"))

@@ -30,8 +30,9 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing LawChoice "
-        "LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing "
+        "LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "bench": "FailActive",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
@@ -47,6 +48,7 @@ VALUES = named(
         "": "BrakedDrop Reach",
         "arms": "Builtin DHTable",
         "assessment": "Structure Upgrade",
+        "bench": "Motion Score",
         "control": "Deviations",
         "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
@@ -73,6 +75,7 @@ INPUTS = named(
     {
         "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
+        "bench": "Case",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
         "control": "Law",

@@ -67,6 +67,7 @@ MADE = {
     "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
     "CellCheck": found(lambda: hf.check_cell(hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), arm())),
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
+    "Configurations": found(lambda: hf.all_configurations(arm(), TARGET, "planar")),
     "ConvergenceMap": lambda: mapped(),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
     "Endurance": found(lambda: hf.endure(arm(), timed(), task="planar", samples=5, spacing=0.3)),
@@ -94,11 +95,12 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "Optima", "StationaryPoints", "WaypointCheck"}
+WITHOUT_FIGURE = {"CellCheck", "Configurations", "Optima", "StationaryPoints", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",
     "Designs",
+    "FailActive",
     "FreeSwing",
     "Merged",
     "Orbit",

@@ -6,6 +6,7 @@ import re
 import sys
 from dataclasses import replace
 from html import unescape
+from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -18,17 +19,19 @@ from holdfast.present.simulation.run import _RunReport
 from holdfast.recovery.recovery import Ending
 from holdfast.simulation.runs import Outcome, Reason
 from holdfast.status import Status
+from holdfast.words import together
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 pytestmark = pytest.mark.interpreted
-PARTS = {"WaypointCheck"}  # of a result, without a command that writes their page
+PARTS = {"Configurations", "WaypointCheck"}  # of a result, without a command that writes their page
 NAMES = [e.name for kind in (Ending, Outcome, Reason, Status) for e in kind if "_" in e.name or e.name in ("HOME", "CONVERGED")]
 
 
 def says_something(answer):
     """One or two sentences for people, about what was found rather than what was asked."""
+    answer = answer.replace("\u00a0", " ")
     assert answer[-1] == "."
     assert ".." not in answer
     assert len(answer) < 600
@@ -43,6 +46,7 @@ def test_a_page_begins_with_the_answer_and_ends_with_method_and_command(name, tm
     options = {} if name in ("Assessment", "Comparison") else {"command": "holdfast this --out again"}
     html = result.report(tmp_path / "report.html", **options).read_text(encoding="utf-8")
     check(html)
+    assert not [text for text in Lines(html).texts if APART.search(text)]
     says_something(unescape(re.search(r'class="headline">(.*?)</p>', html, re.DOTALL)[1].strip()))
     first, method = html.index('class="headline"'), html.index('id="method"')
     assert first < html.index("<section") < method
@@ -50,7 +54,39 @@ def test_a_page_begins_with_the_answer_and_ends_with_method_and_command(name, tm
         assert method < html.index('id="again"') < html.index("holdfast this --out again")
     facts = re.search(r'<dl class="facts">(.*?)</dl>', html, re.DOTALL)
     for value in re.findall(r"<dd>(.*?)</dd>", facts[1] if facts else ""):
-        assert value not in ("0", "0 %", "0 m", "–")
+        assert value.replace("\u00a0", " ") not in ("0", "0 %", "0 m", "–")
+
+
+class Lines(HTMLParser):
+    """The texts that a reader's browser breaks into lines where it likes."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.inside, self.texts = [], []
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        if tag in ("title", "style", "script", "svg", "pre", "code"):
+            self.inside.append(tag)
+
+    def handle_endtag(self, tag):
+        if self.inside and self.inside[-1] == tag:
+            self.inside.pop()
+
+    def handle_data(self, data):
+        if not self.inside:
+            self.texts.append(data)
+
+
+APART = re.compile(r"\d (%|°|m|mm|s|ms|min|h|rad|deg|N|kg|Hz)(?![\w-])")
+
+
+def test_no_number_is_on_another_line_than_its_unit():
+    assert together("1.5e-06 of tool1e-2") == "1.5e−06 of tool1e-2"
+    held = "at 7~% of 1.2~m, 3~N~m and 2~rad/s in 10~s; 2 hours, 5 m-long, joint 4 may lock"
+    assert together(held.replace("~", " ")).replace("\u00a0", "~") == held
+    page = '<p title="7 %">7 %</p> <code>--x 1 m</code><pre>2 m\n3 s</pre>'
+    assert together(page, html=True) == page.replace(">7 %", ">7\u00a0%")
 
 
 @pytest.mark.parametrize("outcome", list(Outcome))

@@ -10,8 +10,9 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
+from holdfast.clearance.exact.engines import installed
 from holdfast.recovery import Ending, search
-from holdfast.recovery.proofs import telling_first
+from holdfast.recovery.proofs import listed, proved_by, telling_first
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.verification import Verification, row_errors, tool_poses, verify
 
@@ -65,9 +66,13 @@ def test_a_spoilt_motion_is_refused(moved, three, spoil, fault):
     assert fault in str(found)
 
 
+def slim(arm, thing):
+    return hf.Clearance(arm, hf.Capsules.along(arm, 0.02), hf.Cell([thing]), itself=False)
+
+
 def test_a_motion_into_an_object_is_refused(moved, three):
     tip = three.forward_kinematics(moved.q.mean(axis=0))[:3, 3]
-    shape = hf.Clearance(three, hf.Capsules.along(three, 0.02), hf.Cell([hf.cell.Sphere("ball", 0.05, pose=tip)]), itself=False)
+    shape = slim(three, hf.cell.Sphere("ball", 0.05, pose=tip))
     rows = row_solver(three, moved.task).rows
     found = verify(moved.degraded, HOME, moved.q, rows=rows, clearance=shape)
     assert not found.ok
@@ -104,7 +109,7 @@ def placed(x, y, turn=0.0):
             "proved infeasible",
             "a pose of the path",
         ),
-        (["joint2"], {"goal": placed(1.5, 0.4, 2.0), "task": "planar-pose"}, "argued infeasible", ""),
+        (["joint2"], {"goal": placed(1.5, 0.4, 2.0), "task": "planar-pose"}, "proved infeasible", "boxes"),
     ],
 )
 def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
@@ -115,6 +120,54 @@ def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
     assert f"verdict: {answer}" in " ".join(found.describe())
     assert found.to_dict()["verdict"]["answer"] == answer
     assert answer in found._presented("story").answer
+
+
+@pytest.mark.skipif(not installed(), reason="no library for exact signs")
+def test_that_every_configuration_touches_something_is_a_proof(three):
+    """Two circles meet in two points, and the target is inside a ball."""
+    goal = placed(1.5, -1.0)
+    shape = slim(three, hf.cell.Sphere("ball", 0.2, pose=[1.5, -1.0, 0.0]))
+    every = listed(hf.Degraded(three, locked={"joint2": 0.6}), as_task(three, "planar"), goal, np.inf)
+    assert "each of its 2 configurations touches something" in str(proved_by(every, shape))
+    assert proved_by(every, None) is None
+    assert proved_by(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
+
+
+def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about_what_touches(rng):
+    arm = hf.arms.load("panda")  # the tool point lies on joint 7, which a position leaves idle and a cell does not
+    q = rng.uniform(arm.lower, arm.upper)
+    locks = {k: q[k] for k in (0, 2, 4)}
+
+    class Touches:
+        """All configurations touch where joint 7 is in the middle."""
+
+        def sign(self, q):
+            return np.zeros(len(q), dtype=bool)
+
+    for more, sure in (({}, False), ({6: q[6]}, True)):
+        task = as_task(arm, "position")
+        every = listed(hf.Degraded(arm, locked=locks | more), task, arm.forward_kinematics(q), np.inf)
+        assert len(every.q)
+        assert (proved_by(every, Touches()) is not None) == sure
+
+
+def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
+    arm = hf.arms.load("panda")
+    for locks in (1, 2, 3):
+        joints = rng.choice(arm.n, locks, replace=False)
+        q, at = rng.uniform(arm.lower, arm.upper, (2, arm.n))
+        at[joints] = q[joints]
+        bad = hf.Degraded(arm, locked={int(k): q[k] for k in joints})
+        found = hf.recover(arm, bad, at, goal=arm.forward_kinematics(q), clearance=False, samples=0, starts=1, tries=0)
+        assert found.verdict.answer != "proved infeasible", found.verdict
+        assert found.ok or found.stopped or locks == 1, found.verdict  # one start seldom finds it: the boxes do
+
+
+def test_what_only_a_search_says_is_argued(three, monkeypatch):
+    monkeypatch.setattr(search, "listed", lambda *_: None)
+    found = hf.recover(three, ["joint2"], HOME, goal=placed(1.5, 0.4, 2.0), task="planar-pose", samples=0)
+    assert (found.verdict.answer, found.verdict.kind) == ("argued infeasible", "")
+    assert "in 256 starts, which proves nothing" in found.verdict.why
 
 
 def test_a_spent_time_limit_is_undecided_and_says_at_which_level(three):

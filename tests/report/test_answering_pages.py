@@ -17,7 +17,7 @@ import holdfast as hf
 from holdfast.present.arm.view import scene
 from holdfast.report import figures
 from holdfast.report.page import Callout, Code, Page, Picture, Section, Table, write
-from holdfast.words import interval
+from holdfast.words import interval, together
 
 NINE = hf.arms.load("pa10-9dof")
 REGION = hf.Region.box([0.968, 0, 0.041], 0.5, np.deg2rad([0, 174, 0]), np.deg2rad([90, 90, 90]))
@@ -80,7 +80,7 @@ def test_a_threshold_has_the_answers_that_python_gives(report, found):
     assert 0.29 in asked  # half of the bound, sqrt(3 / 9)
     shown = moved(report, "threshold", "[...box.querySelectorAll('[data-row]')].map(x => x.textContent)")
     expected = [[interval(found.interval(at_least=x, optimised=o)) for o in (False, True)] for x in asked]
-    assert shown == expected
+    assert shown == [[together(text) for text in texts] for texts in expected]
 
 
 def test_no_option_of_a_command_is_broken_behind_its_hyphens(report):
@@ -220,7 +220,8 @@ def test_nothing_serious_stands_in_the_way(report, small, kind):
 
 
 def column(page, k: int) -> list[str]:
-    return page.locator("table.sortable tbody tr").evaluate_all("(rows, k) => rows.map(row => row.cells[k].textContent)", k)
+    texts = page.locator("table.sortable tbody tr").evaluate_all("(rows, k) => rows.map(row => row.cells[k].textContent)", k)
+    return [text.replace("\u00a0", " ") for text in texts]
 
 
 def test_tables_are_sorted_by_their_heads(small):

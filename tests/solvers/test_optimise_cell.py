@@ -62,8 +62,11 @@ def test_exhaustive_search_among_discs(index, clearance, rng):
     np.testing.assert_array_equal(best.q[~best.blocked], free.q[~best.blocked])
     bars = [best.obstacles[k] for k in range(40)]
     for k in np.flatnonzero(best.blocked):
-        gaps = [cells.from_disc([1, 1, 1], WIDTH, free.q[k][None], at, r)[0] - 0.01 * j for j, (at, r) in enumerate(DISCS)]
-        assert bars[k].endswith(f"disc{int(np.argmin(gaps))}")
+        found = free.q[k][None] if best.success[k] else oracles.three_link_fibre(arm, poses[k, :2, 3])
+        gaps = [cells.from_disc([1, 1, 1], WIDTH, found, at, r) - 0.01 * j for j, (at, r) in enumerate(DISCS)]
+        nearest = np.bincount(np.argmin(gaps, axis=0), minlength=len(DISCS)) / len(found)
+        # Without a clear one it is what bars most of those found, which are not spread as those of the fibre are.
+        assert nearest[int(bars[k][-1])] >= (1 if best.success[k] else 0.25)
     assert not any(bars[k] for k in np.flatnonzero(~best.blocked))
 
 
@@ -98,7 +101,7 @@ def test_what_is_found_without_a_clear_one_says_what_is_in_the_way(index, cleara
     pose = cells.placed(0.9, 0.9, 0)  # within a disc
     with pytest.raises(
         hf.HoldfastError,
-        match=r"comes closer to the cell than it may in each .* at the best by joint3 & disc0: .* move the object",
+        match=r"comes closer to the cell than it may in each .* most often by joint3 & disc0: .* move the object",
     ):
         optimise(index.arm, pose, index, clearance=clearance).require_any()
 

@@ -49,7 +49,7 @@ def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     assert first.level == ["b", "a"]
     assert first.about == "200 motions × 2 joints"
     assert (second.law, second.level) == ("damped:0.1", ["a"])
-    text = render(Page("t", headline([first, second]), [Section("s", _standings([first, second]))]))
+    text = render(Page("t", headline([first, second]), [Section("s", _standings([first, second]))])).replace("\u00a0", " ")
     assert "level with a" in text
     assert "a reaches its target most often, under damped:0.1" in text
     none = headline(standings([], [driven("a", 0.0), driven("b", 0.0)], {}))
@@ -66,7 +66,7 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
     assert plain.level == ["even"]
     assert best.question == "manipulability ≤ 10, best configuration"
     assert best.level == ["even", "uneven"]
-    text = render(Page("t", headline([plain, best]), [Section("s", _standings([plain, best]))]))
+    text = render(Page("t", headline([plain, best]), [Section("s", _standings([plain, best]))])).replace("\u00a0", " ")
     assert "After any failure considered, even most often keeps a manipulability ≤ 10 m/rad: at 1.000" in text
     assert "clearly ahead" in text
 

@@ -21,7 +21,7 @@ from holdfast.caching import cached_property
 from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE
 from holdfast.clearance.chains import Balls
-from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.kernel import Kernel, Single
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import Vector, smallest
@@ -247,6 +247,13 @@ class FormulaObjects:
         """(N, L, F) lower bound of the distance of every link from every object, m."""
         rows = [x[:, 1:].reshape(len(q), self._links, BLOCK) for x in self._by_block(self._distance_kernel, q, self._bare)]
         return np.concatenate([np.empty((len(q), self._links, 0)), *rows], axis=2)[:, :, : len(self.objects)]
+
+    def single_blocks(self) -> list[Single]:
+        """Of each block what :func:`nearest_kernel` says, of one configuration at a time: the first n of its inputs."""
+        found = [self._nearest_kernel.single() for _ in self._larger]
+        for each, block in zip(found, self._larger, strict=True):
+            each.inputs[self.arm.n :] = block.ravel()
+        return found
 
     def nearest(self, q: Array) -> tuple[Array, Indices, Indices, Array]:
         """Least distance beyond the margins, m; position of its link, its object, and the gradient (N, n).

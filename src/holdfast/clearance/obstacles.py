@@ -25,6 +25,7 @@ from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects, outward_k
 from holdfast.clearance.objects.end_links import EndLinks
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
+from holdfast.kernels.kernel import Single
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -172,6 +173,11 @@ class Obstacles:
             room, slope = np.where(closer, other, room), np.where(closer[:, None], theirs, slope)
             pair = np.where(closer, np.where(np.isnan(other), np.nan, link * count + self._grids[thing]), pair)
         return room, np.where(np.isnan(pair), -1, pair).astype(np.int64), slope
+
+    def single_blocks(self) -> list[Single]:
+        """What is nearest at one configuration at a time, by block of objects; none with objects that have grids."""
+        formulas = len(self._plain) and len(self.links) and self._gridded is None
+        return self._formulas.single_blocks() if formulas else []
 
     def room(self, q: Array) -> Array:
         """(N,) the least distance beyond what each pair keeps, m."""

@@ -52,6 +52,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "tolerant-workspace": "known.tolerant_workspace",
     "free-swing": "known.free_swing",
     "study": "larger.study",
+    "bench": "larger.bench",
     "teleop": "larger.teleop",
     "export": "larger.export",
 }

@@ -110,7 +110,7 @@ def box_kernel(arm: Arm, parts: Parts) -> Kernel:
     point = chain.position + chain.rotation @ beside
     full = kinematics.jacobian_of(arm, chain, point)
     turns = [0.0 if joint.prismatic else 1.0 for joint in arm.joints]
-    rho = _distances(arm, full, h, turns, arm.tool[:3, 3] if foot is None else foot)
+    rho = _distances(arm, full, (c, h), turns, arm.tool[:3, 3] if foot is None else foot)
     leaning = turning(arm, parts)
     spread = sum((h[k] for k in range(n) if leaning[k]), ca.SX(0))
     second, inner = ca.SX(0), ca.SX(0)
@@ -193,9 +193,9 @@ def _foot(arm: Arm) -> Array | None:
     return np.asarray(along * last.axis)
 
 
-def _distances(arm: Arm, full: SX, h: SX, turns: list[float], point: Array) -> list[SX]:
+def _distances(arm: Arm, full: SX, box: tuple[SX, SX], turns: list[float], point: Array) -> list[SX]:
     """``rho`` of every joint, for a point given in the last link's frame."""
-    most = _greatest(arm, point)
+    most, h = _greatest(arm, point, *box), box[1]
     rho: list[SX] = [ca.SX(1)] * arm.n
     beyond = ca.SX(0)
     for k in reversed(range(arm.n)):
@@ -205,12 +205,15 @@ def _distances(arm: Arm, full: SX, h: SX, turns: list[float], point: Array) -> l
     return rho
 
 
-def _greatest(arm: Arm, point: Array) -> list[float]:
-    """How far from each joint's axis the point can be at all: the lengths of what lies beyond it."""
-    length, found = float(np.linalg.norm(point)), []
-    for joint in reversed(arm.joints):
+def _greatest(arm: Arm, point: Array, c: SX, h: SX) -> list[SX]:
+    """How far from each joint's axis the point can be in the box: the lengths of what lies beyond it.
+
+    Slides count as far as the box goes, not the arm's limits: a lock may be outside them.
+    """
+    length, found = ca.SX(float(np.linalg.norm(point))), []
+    for k, joint in reversed(list(enumerate(arm.joints))):
         if joint.prismatic:
-            length += max(abs(joint.lower), abs(joint.upper))
+            length += ca.fabs(c[k]) + h[k]
         found.append(length)
         length += float(np.linalg.norm(joint.origin[:3, 3]))
     return found[::-1]

@@ -15,7 +15,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.enclosure.box_bounds import Parts, box_kernel, idle, turning
-from holdfast.errors import InputError
+from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel
 from holdfast.notice import says, working
 from holdfast.result import Result
@@ -30,6 +30,7 @@ _GAIN = 0.6  # of its volume: a box that was cut to less is looked at again befo
 _TURN = 0.35  # m: what 1 rad of a joint counts beside the way of the tool when the joint to halve is chosen
 _NEWTON = 30
 _ALONE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
+_TILT = 1e-6  # what it does to the bounds is its square
 _SAME = 1e-5  # rad and m: solutions nearer than this are one
 
 
@@ -131,9 +132,9 @@ def all_configurations(
 
     Raises:
         InputError: A pose, limits or numbers that are invalid.
-        TaskError: A task about which nothing can be proved.
+        TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
 
-    Source: see :mod:`holdfast.enclosure.box_bounds`.
+    Source: interval Newton methods (Krawczyk 1969); the bounds are ours, derived in ``holdfast/enclosure/box_bounds.py``.
     """
     rows = as_task(arm, task)
     wanted = target_pose(rows, pose)
@@ -182,6 +183,10 @@ class _Search:
 
     def __init__(self, arm: Arm, task: Task, pose: Array, tolerance: float, low: Array, high: Array) -> None:
         parts = Parts.of(arm, task)
+        if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
+            turned = pose[:3, :3] @ arm.forward_kinematics((low + high) / 2)[:3, :3].T @ parts.normal
+            if np.abs(turned - parts.normal).max() > _TILT:
+                raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
         self._kernel: Kernel = box_kernel(arm, parts)
         self._given = pose[:3, 3], pose[:3, :3], np.full(parts.m, tolerance)
         self._turning = np.where(turning(arm, parts), _TURN, 0.0)
@@ -214,7 +219,7 @@ class _Search:
     def run(self, until: float, most: int, first: bool) -> Finding:
         """Look until all is decided, or no more may be done."""
         ends = first or self._more
-        with working("boxes of joints") as advance:
+        with working("halving boxes of joints") as advance:
             while self._stack:
                 if time.perf_counter() > until or self.boxes >= most:
                     return Finding.OPEN

@@ -13,6 +13,7 @@ from holdfast.notice import each
 from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
 _ALIKE = 1e-12  # of all that can be gathered: less is rounding
@@ -31,12 +32,15 @@ class Front:
         self.ended: int | None = None
         self._total, self._way = gain, np.zeros(len(gain))
         self._came: list[Index] = []
+        self._moves: list[Flags] = []
+        self._reached = [np.ones(len(gain), dtype=bool)]
 
     def advance(self, far: Array, beyond: Array, gain: Array) -> None:
         """To the next pose: squared distances of its nodes (Q, P), how far beyond what is allowed these are, and gains (Q,)."""
         if self.ended is not None:
             return
-        gathered = np.where(beyond <= self.extra, self._total, -np.inf)
+        allowed = beyond <= self.extra
+        gathered = np.where(allowed, self._total, -np.inf)
         most = gathered.max(axis=1)
         if not np.isfinite(most).any():
             self.ended = len(self._came)
@@ -45,6 +49,15 @@ class Front:
         source = price.argmin(axis=1)
         self._total, self._way = most + gain, price[np.arange(len(gain)), source]
         self._came.append(source)
+        self._moves.append(allowed)
+        self._reached.append(np.isfinite(most))
+
+    def on_motions(self) -> list[Flags]:
+        """(P,) for each pose: which of its nodes lie on a motion through all poses."""
+        alive = [self._reached[-1]]
+        for moves, reached in zip(reversed(self._moves), reversed(self._reached[:-1]), strict=True):
+            alive.append(reached & moves[alive[-1]].any(axis=0))
+        return alive[::-1]
 
     def motion(self) -> Index:
         """The node of every pose (T,)."""

@@ -43,7 +43,7 @@ class VelocityJump:
         linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
         mean_linear, mean_angular: Means over time and joints, weighted by the failure rates.
 
-    Source: Abdi and Nahavandi 2012, the jump of the end effector's velocity at a lock.
+    Source: the jump of the end effector's velocity at a lock, Abdi et al., Robotica 30, 2012 (read as an abstract).
     """
 
     linear: Array
@@ -67,9 +67,9 @@ class Found:
     """What a search over all motions of the grid knows.
 
     Attributes:
-        bound: No motion of the grid survives more: at every instant the best node, whether a motion leads there or not.
+        bound: No motion of the grid survives more: at every instant the best node that lies on any motion along the path.
         interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
-            exceed them by the spacing from pose to pose, as nodes are no finer. NaN where there is none.
+            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
         spacing: Of the nodes, rad (and m).
         nodes: T arrays (P, n) of configurations, all that were found.
         curve: T arrays (P,) with the number of their curve.
@@ -94,7 +94,7 @@ class Compared:
         name: What made it.
         survival: As of :class:`Endurance`.
         curve: (T,) as there, at the same times.
-        off: Fraction of the samples at which it is off the path, or there is none; nothing is survived there.
+        off: Fraction of the samples at which it is off the path, or has no configuration; nothing is survived there.
     """
 
     name: str
@@ -179,7 +179,7 @@ class Endurance(Result):
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """The best of the grid within the velocity limits, and with the spacing on top; see :class:`Found`."""
+        """The best of the grid within the velocity limits, and with the spacing on top; see ``found``."""
         return None if self.found is None else self.found.interval
 
     def curve(self) -> Array:
@@ -290,12 +290,14 @@ class Endurance(Result):
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         time, joint = drawn_locks(self._problem, locks, generator)
         survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint)
-        nearest = np.rint(np.interp(time, self.time, np.arange(len(self.time)))).astype(np.int64)
+        before = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2)
+        expected = self.survives[before, joint]
         return Injection(
             time=time,
             joint=joint,
             survived=survived,
-            expected=self.survives[nearest, joint],
+            expected=expected,
+            told=expected == self.survives[before + 1, joint],
             interval=Interval.of(float(survived.sum()), locks),
         )
 
@@ -357,7 +359,7 @@ class Endurance(Result):
             count, p = len(self.injected.time), self.injected.interval
             lines.append(
                 f"of {count} locks injected at random times {percent(p.value)} were survived ({percent(p.low)} to "
-                f"{percent(p.high)}, 95 %); the motion says the same of {percent(self.injected.alike)} of them"
+                f"{percent(p.high)}, 95 %), {percent(self.injected.alike)} of them as the motion says"
             )
         if self.never is not None:
             when, name = self.never

@@ -32,7 +32,8 @@ class Injection:
         time: (N,) s.
         joint: (N,) index of the locked joint.
         survived: (N,) True where the failed arm finished the path.
-        expected: (N,) what the motion's own table says, at the nearest sample.
+        expected: (N,) what the motion says at the sample before.
+        told: (N,) True where it says the same at the sample behind; between samples that differ it says nothing.
         interval: Of the probability that a lock is survived.
     """
 
@@ -40,17 +41,18 @@ class Injection:
     joint: Index
     survived: Flags
     expected: Flags
+    told: Flags
     interval: Interval
 
     @property
     def alike(self) -> float:
-        """Fraction of the locks of which table and injection say the same."""
-        return float((self.survived == self.expected).mean())
+        """Of the locks of which the motion says something, the fraction of which the injection says the same."""
+        return float((self.survived == self.expected)[self.told].mean()) if self.told.any() else 1.0
 
     @property
     def disagreements(self) -> list[tuple[float, int]]:
         """Time, s, and joint of the others."""
-        other = self.survived != self.expected
+        other = self.told & (self.survived != self.expected)
         return list(zip(self.time[other].tolist(), self.joint[other].tolist(), strict=True))
 
 
@@ -158,9 +160,16 @@ def _with_detours(problem: Problem, q: Array, time: Array, joint: Index) -> Flag
 
 
 def healthy(problem: Problem, q: Array, time: Array) -> Array:
-    """(N, n) where a motion (T, n) is at times (N,), brought to the pose of that time."""
+    """(N, n) where a motion (T, n) is at times (N,), brought to the pose of that time and back within the joint limits."""
     arm = problem.arm
     k = np.clip(np.searchsorted(problem.time, time, side="right") - 1, 0, len(q) - 2)
     share = (time - problem.time[k]) / np.diff(problem.time)[k]
     between = q[k] + share[:, None] * joint_space.difference(arm, q[k + 1], q[k])
-    return problem.lock.tracer.corrected(between, problem.path.pose(time))[0]
+    poses = problem.path.pose(time)
+    found = problem.lock.tracer.corrected(between, poses)[0]
+    inside = np.clip(found, arm.lower, arm.upper)
+    beyond = np.flatnonzero((found != inside).any(axis=1))  # of a motion along a limit
+    limit = np.abs(found - inside)[beyond].argmax(axis=1)
+    back, good = problem.lock.held(inside[beyond], limit, poses[beyond])
+    found[beyond[good]] = back[good]
+    return found

@@ -62,6 +62,10 @@ class Lock:
         target = np.broadcast_to(self.poses[np.asarray(t) + 1], (len(q), 4, 4))
         return self._step(q, joint, np.broadcast_to(t, len(q)), target, self.tracer.newton(q, *_split(target)))
 
+    def held(self, q: Array, joint: Index, poses: Array) -> tuple[Array, Flags]:
+        """Configurations (N, n) brought to poses (N, 4, 4) near them without joint (N,), and whether that worked."""
+        return self._solved(q, joint, poses, self.tracer.newton(q, *_split(poses)))
+
     def step_all(self, q: Array, t: Index) -> tuple[Array, Flags]:
         """As :meth:`step` of every joint of every q (N, n) on pose t (N,): (N, n, n), the joint locked second, and (N, n)."""
         n = self.arm.n

@@ -119,7 +119,7 @@ def endure(
     motions = [None if front.ended is not None else front.motion() for front in fronts]
     gathered = [np.nan if m is None else sum(float(g[k]) for g, k in zip(gains, m, strict=True)) / whole for m in motions]
     known = Found(
-        bound=float(sum(g.max() for g in gains)) / whole,
+        bound=float(sum(g[some].max() for g, some in zip(gains, fronts[1].on_motions(), strict=True))) / whole,
         interval=(gathered[0], gathered[1]),
         spacing=spacing,
         nodes=[x.q for x in nodes],
@@ -134,8 +134,9 @@ def endure(
         q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
         smooth = smoothed(lock.tracer, nodes, table, gains, chosen, q, poses, held=start is not None)
         made = Endurance.of(problem, smooth, survives=problem.judge(smooth), found=known)
-        rough = Endurance.of(problem, q, survives=problem.judge(q), found=known)
-        results.append(made if made.survival >= most - _ALIKE else rough)
+        if made.survival < most - _ALIKE:  # smoothing has cost something
+            made = Endurance.of(problem, q, survives=problem.judge(q), found=known)
+        results.append(made)
     # What the joints can do comes first; of equals the first.
     best = max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
     return best if not compare else beside(problem, best, compare, seed)

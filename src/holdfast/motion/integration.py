@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from itertools import combinations
+
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +23,7 @@ Array = NDArray[np.float64]
 
 _SETTLING = 400  # steps before the first
 _CATCH_UP = 3.0  # times the largest twist of the path
+_KEPT = 1e-9  # m/s: a limit broken by less is kept
 _BLOCK = 500  # steps after which somebody is told of them
 
 
@@ -37,7 +41,7 @@ def integrate(
         start = _run(kernel, start, np.broadcast_to(path.pose(0.0), (_SETTLING, 4, 4)), step, room)[0][-1]
     joints, rates, shares = _run(kernel, start, path.pose(np.arange(1, count + 1) * step), step, room)
     n = law.arm.n
-    limit = [] if room is None else [room.rows(joints[-1])]
+    limit = [] if room is None else [room.limits(joints[-1])[:ROWS].ravel()]
     last = kernel.rows(joints[-1], np.zeros(3), np.eye(3), path.twist(path.duration), 1.0, *limit)[0]
     return joints, np.vstack([rates, last[n : 2 * n]]), np.vstack([shares, last[2 * n :]])
 
@@ -60,8 +64,7 @@ def _run(kernel: Kernel, start: Array, targets: Array, step: float, room: Room |
                 once()
                 steps[k] = out[:, 0]
                 if room is not None and not room.idle(columns[:n, 0], steps[k, n : 2 * n]):
-                    columns[n + 19 :] = room.rows(columns[:n, 0])[:, None]
-                    once()
+                    keep_limits(once, columns, out, room.limits(columns[:n, 0]))
                     steps[k] = _cut(out[:, 0], columns[:n, 0], room)
                 columns[:n] = steps[k, :n, None]
             tell(last - first)
@@ -71,6 +74,31 @@ def _run(kernel: Kernel, start: Array, targets: Array, step: float, room: Room |
             f"the motion breaks down at {broken.argmax() * step:.4g} s: the arm is exactly singular there; start elsewhere"
         )
     return np.vstack([start, steps[:, :n]]), steps[:, n : 2 * n], steps[:, 2 * n :]
+
+
+def keep_limits(once: Callable[[], None], columns: Array, out: Array, limits: Array) -> None:
+    """The step that keeps the first two limits (K, n + 1), or where others are broken by it the one of a pair that keeps all.
+
+    What is best under two limits and keeps the others is best under all of them. Self-motion of one or two dimensions is
+    bounded by no more than two at a time.
+
+    Args:
+        once: Computes ``out`` from ``columns``.
+        columns: The inputs of the step; the last rows are two limits.
+        out: What it gives: the next configuration, rates (n,), shares.
+        limits: What is to be kept.
+    """
+    n = limits.shape[1] - 1
+    first: Array | None = None
+    for pair in combinations(range(len(limits)), ROWS):
+        columns[-ROWS * (n + 1) :] = limits[list(pair)].reshape(-1, 1)
+        once()
+        lack = limits[:, n] - limits[:, :n] @ out[n : 2 * n, 0]
+        # Where the first two themselves cannot be kept the end effector is slowed already, and nothing else is tried.
+        if lack.max() <= _KEPT or (first is None and not (lack[ROWS:] > _KEPT).any()):
+            return
+        first = out.copy() if first is None else first
+    out[:] = first
 
 
 def _cut(step: Array, q: Array, room: Room) -> Array:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.objects.one_row import OneRow
 
 Array = NDArray[np.float64]
 
@@ -52,6 +53,7 @@ class Room:
 
     def __init__(self, clearance: Clearance, margin: float, rate: float) -> None:
         self.clearance, self.margin, self.rate = clearance, margin, rate
+        self._nearest = OneRow(clearance)
         self._steepest = clearance.changes(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
         self._seen: list[tuple[Array, float, Array]] = []
 
@@ -59,8 +61,8 @@ class Room:
         """The configuration (n,), its room and the slope of that (n,); remembered, the latest first."""
         if self._seen and np.array_equal(self._seen[0][0], q):
             return self._seen[0]
-        rooms, slopes = self.clearance.nearest(q[None])
-        found = (q.copy(), float(rooms[0]) - self.margin, slopes[0])
+        room, slope = self._nearest(q)
+        found = (q.copy(), room - self.margin, slope)
         others = [x for x in self._seen if np.abs(x[0] - q).max() < _FAR and not _alike(x[2], found[2])]
         self._seen = [found, *others[: _KEPT - 1]]
         return found
@@ -73,13 +75,16 @@ class Room:
         least = room - float(self._steepest @ np.abs(q - where))
         return float(self._steepest @ np.abs(rates)) < self.rate * least
 
-    def rows(self, q: Array) -> Array:
-        """The limits at a configuration (n,): two slopes (n,), and after each the least that the rates may make of it, m/s."""
+    def limits(self, q: Array) -> Array:
+        """(K, n + 1) the limits at a configuration (n,): slopes, and after each the least that the rates may make of it, m/s.
+
+        The first is what is nearest, the second what is nearest of the things that were seen a moment ago; one at least is
+        of something, and slopes of 0 limit nothing.
+        """
         first = self._look(q)
-        around = [(room + float(slope @ (q - where)), slope) for where, room, slope in self._seen[1:]]
-        nearest = min(around, key=lambda x: x[0], default=(np.inf, np.zeros(len(q))))
-        limits = [(first[1], first[2]), nearest]
-        return np.concatenate([np.append(slope, max(-self.rate * room, _NEVER)) for room, slope in limits])
+        around = sorted(((room + float(slope @ (q - where)), slope) for where, room, slope in self._seen[1:]), key=_room)
+        seen = [(first[1], first[2]), *around, (np.inf, np.zeros(len(q)))]
+        return np.array([np.append(slope, max(-self.rate * room, _NEVER)) for room, slope in seen])
 
     def part(self, q: Array, moved: Array) -> float:
         """How much of a step from one configuration (n,) to another the room allows: all, unless it is used up on the way."""
@@ -96,6 +101,10 @@ class Room:
         return Near(
             clearance.room(q) - self.margin, clearance.closest_pair(q), clearance.pair_names, clearance.margins + self.margin
         )
+
+
+def _room(seen: tuple[float, Array]) -> float:
+    return seen[0]
 
 
 def _alike(one: Array, other: Array) -> bool:

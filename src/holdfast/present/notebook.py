@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
 from holdfast.result import Shown
+from holdfast.words import together
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,7 +35,7 @@ def card(thing: Shown) -> str:
     if steps := thing._presented("next_steps", name):
         code = escape("\n".join(map(_lines, steps)), quote=False)
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
-    return f'<div class="holdfast" style="max-width:60em">{"".join(parts)}</div>'
+    return f'<div class="holdfast" style="max-width:60em">{together("".join(parts), html=True)}</div>'
 
 
 def _called(thing: Shown) -> str:

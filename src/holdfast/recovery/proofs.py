@@ -7,12 +7,20 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.task import plane_normal
+from holdfast.arm.task import Task, plane_normal
+from holdfast.clearance.clearance import Clearance
+from holdfast.enclosure import Configurations, Finding, all_configurations
+from holdfast.enclosure.box_bounds import Parts, idle
+from holdfast.errors import HoldfastError, TaskError
+from holdfast.failures import Degraded
 from holdfast.recovery.bounds import out_of_reach
 from holdfast.recovery.rows import RowSolver
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+
+_BOXES = 2_000_000  # about 2 s: a number and not a time, so that the same seed gives the same result
+_TOLERANCE = 1e-6  # m and rad: what the search takes as met
 
 
 def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str | None:
@@ -33,6 +41,44 @@ def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str |
     elif rank != 2 or normal is None or rows.linear != "base" or np.abs(linear @ normal).max() > 1e-9:
         return None
     return out_of_reach(arm, free, at, pose, rows.m == 6, normal)
+
+
+def listed(degraded: Degraded, task: Task, pose: Array, seconds: float) -> Configurations | None:
+    """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.
+
+    Args:
+        degraded: What is in force, every lock with its value.
+        task: Whose rows count.
+        pose: (4, 4) of the end effector, m.
+        seconds: At most.
+    """
+    limits = degraded.lo, degraded.hi
+    known = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)  # or it turns once
+    if not known.all() or not seconds > 0:
+        return None
+    allowed = {} if np.isinf(seconds) else {"time_limit": seconds}
+    try:
+        return all_configurations(
+            degraded.arm, pose, task, limits=limits, tolerance=_TOLERANCE, most_boxes=_BOXES, first=False, **allowed
+        )
+    except TaskError:
+        return None
+
+
+def proved_by(found: Configurations | None, clearance: Clearance | None) -> str | None:
+    """A sentence that proves that no clear configuration exists: there is none, or each of them touches something."""
+    if found is None or found.finding not in (Finding.NONE, Finding.ALL):
+        return None
+    if not len(found.q):
+        return f"no configuration within the limits meets it, by {found.boxes:,} boxes of joints, up to floating point"
+    if found.lower[-1] < found.upper[-1] and idle(found.arm, Parts.of(found.arm, found.task)):
+        return None  # the last joint was looked at in one place, and its turn may clear what touches
+    try:
+        if clearance is None or clearance.sign(found.q).any():
+            return None
+    except HoldfastError:  # no library for exact signs is installed
+        return None
+    return f"each of its {len(found.q)} configurations touches something, by {found.boxes:,} boxes of joints and the exact sign"
 
 
 def telling_first(count: int) -> Iterator[int]:

@@ -120,7 +120,7 @@ class Recovery(Result):
         metric: ``travel`` or ``time``.
         unit: Of lengths: ``rad`` (1 m of a slide counts as 1 rad) or ``s``.
         clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None. With a cell it is
-            the bound, or where that leaves less the exact distances of :class:`holdfast.clearance.exact.sharper.Sharper`.
+            the bound, or where that leaves less exact distances.
         margin: m.
         seed: The same seed gives the same result.
     """

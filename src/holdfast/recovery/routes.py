@@ -107,9 +107,14 @@ class Space:
         self._until = time.monotonic() + seconds
 
     @property
+    def seconds_left(self) -> float:
+        """For searches; infinite without a limit."""
+        return max(self._until - time.monotonic(), 0.0)
+
+    @property
     def spent(self) -> bool:
         """The time for searches is over."""
-        return time.monotonic() >= self._until
+        return self.seconds_left == 0
 
     def inside(self, q: Array) -> Flags:
         """(N,) True within the limits, locked joints left aside."""

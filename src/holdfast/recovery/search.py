@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ from holdfast.failures import Locked, degraded_at
 from holdfast.notice import says
 from holdfast.recovery.continuation import RestOfPath, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
-from holdfast.recovery.proofs import telling_first, unreachable
+from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachable
 from holdfast.recovery.question import SAME, Goal, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+
+_PROVED = 3  # poses of a path, of which no configuration was found, that are tried to be proved to have none
 
 
 @checked
@@ -232,7 +235,7 @@ class _Search:
         rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
         self._look("following the tool path")
         if not rest.finished:
-            self._prove_of_path(rest.share, path.pose(rest.share), here)
+            self._prove_of_path(rest.share, rest.found, path.pose(rest.share), here)
         if not motions:
             return rest
         route = self._route(here, np.stack([m[0] for m in motions]))
@@ -248,13 +251,17 @@ class _Search:
         self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
-    def _prove_of_path(self, share: Array, poses: Array, here: Array) -> None:
+    def _prove_of_path(self, share: Array, found: Flags, poses: Array, here: Array) -> None:
         """That one pose of the path cannot be met, if any can be proved to be so."""
-        for k in telling_first(len(poses)):
-            proof = unreachable(self.solver, self.space.free, here, poses[k])
+        order = list(telling_first(len(poses)))
+        tried = ((k, unreachable(self.solver, self.space.free, here, poses[k])) for k in order)
+        hardest = [k for k in order if not found[k]][:_PROVED]
+        made = self.made
+        boxes = ((k, listed(made.degraded, made.task, poses[k], self.space.seconds_left)) for k in hardest)
+        for k, proof in chain(tried, ((k, proved_by(every, made.clearance)) for k, every in boxes)):
             if proof is not None:
                 at = f"at {100 * share[k]:.1f} % of the tool path {proof}"
-                self.made = replace(self.made, proof=at, proof_kind="a pose of the path")
+                self.made = replace(made, proof=at, proof_kind="a pose of the path")
                 return
 
     def _route(self, here: Array, goals: Array) -> Route | None:
@@ -270,6 +277,11 @@ class _Search:
                 configurations_of(self.solver, self.space, self.metric, pose, here, made.starts, self.rng) for pose in aim.poses
             ]
             goals, owner = np.concatenate(each), np.repeat(np.arange(len(each)), [len(x) for x in each])
+        every = [] if len(goals) else [listed(made.degraded, made.task, pose, self.space.seconds_left) for pose in aim.poses]
+        for k, configurations in enumerate(every):
+            some = np.zeros((0, made.arm.n)) if configurations is None else configurations.q
+            some = some[self.space.clear(some)] if len(some) else some
+            goals, owner = np.concatenate([goals, some]), np.append(owner, np.full(len(some), k))
         self._look("looking for configurations of the goal")
         made = replace(made, found=len(goals))
         ending = Ending.HOME if aim.lost is None else Ending.HOME_WITH_ROWS_GIVEN_UP
@@ -289,14 +301,16 @@ class _Search:
                 f"{self._in_the_way(here, goals[0])}"
             )
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason="; ".join(reasons))
-        proofs = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
+        bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
+        boxes = [proved_by(found, made.clearance) for found in every]
+        proofs = [bound or box for bound, box in zip(bounds, boxes, strict=True)]
         proof = None if None in proofs else proofs[0]
         pair = "" if proof else what_bars(self.solver, self.space, aim.poses[0], here, np.random.default_rng(made.seed))
         found = "no clear configuration" if pair else "no configuration"
         bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
         reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
         if proof is not None:
-            made = replace(made, proof=proof, proof_kind="reach bound")
+            made = replace(made, proof=proof, proof_kind="reach bound" if None not in bounds else "boxes")
         offers = [
             (choice, pose)
             for pose in aim.poses

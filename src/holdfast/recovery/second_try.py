@@ -21,11 +21,14 @@ _IN_THE_WAY = (
 def bolder(found: Recovery, again: Callable[[Clearance], Recovery]) -> Recovery:
     """What was found by the bound, or what is found once more by exact distances where that is better.
 
+    Not where the goal is proved infeasible and a motion without some of its rows was found.
+
     Args:
         found: By the bound.
         again: The same search with another clearance.
     """
-    sharp = sharpened(found.clearance, found.margin) if found.ending in _IN_THE_WAY else None
+    settled = found.proof_kind in ("reach bound", "boxes") and found.given_up is not None
+    sharp = sharpened(found.clearance, found.margin) if found.ending in _IN_THE_WAY and not settled else None
     if sharp is None:
         return found
     other = again(sharp)

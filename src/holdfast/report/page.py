@@ -19,6 +19,7 @@ from markupsafe import Markup
 
 from holdfast.files.output import replaced
 from holdfast.report.viewer import scripted, template, with_library
+from holdfast.words import together
 
 Cell = str | Markup
 FOOTER = "Written by holdfast. This file needs no network and no other file."
@@ -198,9 +199,15 @@ class Page:
         return list(dict.fromkeys(extras))
 
 
+def _together(text: Cell) -> Cell:
+    """A text in which no line ends between a number and its unit."""
+    return Markup(together(text, html=True)) if isinstance(text, Markup) else together(text)
+
+
 def _breakable(cell: Cell) -> Cell:
     """A cell whose long names may be broken behind an underscore, so that those of a file do not push a table off the page."""
-    return cell if isinstance(cell, Markup) or len(cell) < _LONG else Markup("_<wbr>").join(cell.split("_"))
+    whole = _together(cell)
+    return whole if isinstance(whole, Markup) or len(whole) < _LONG else Markup("_<wbr>").join(whole.split("_"))
 
 
 @cache
@@ -214,6 +221,7 @@ def environment() -> Environment:
         lstrip_blocks=True,
     )
     made.filters["breakable"] = _breakable
+    made.filters["together"] = _together
     made.filters["scripted"] = lambda data: Markup(scripted(data))
     made.globals["source"] = lambda file: Markup(template(file))
     return made

@@ -88,7 +88,10 @@ class Optima(Optimum, Result):
 
     @property
     def obstacles(self) -> list[str]:
-        """Of each pose the pair, ``panda_joint4 & table``, that bars the best configuration without regard, or nothing."""
+        """Of each pose the pair, ``panda_joint4 & table``, that bars the best configuration without regard, or nothing.
+
+        Of a pose that is INFEASIBLE it is the pair that bars most of the configurations found.
+        """
         rows = self.rows
         names = [] if self.clearance is None else self.clearance.pair_names
         return [names[k] if k >= 0 else "" for k in rows.blocked_by]
@@ -123,7 +126,7 @@ class Optima(Optimum, Result):
             k, shape = int(self.rows.blocked_by[0]), self.clearance.capsules.describe(self.arm)
             ours = k < len(self.clearance.pairs)
             advice = (
-                f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), at the best by "
+                f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), most often by "
                 f"{self.clearance.pair_names[k]}: choose another pose, give the real shape by --capsules or a smaller "
                 "--margin, " + ("or let it by --no-clearance" if ours else "or move the object")
             )

@@ -61,7 +61,8 @@ class Optimum:
         agreeing: (N,) share of the starts followed to the end that reached the best value to 1e-3 of the scale of values.
         blocked: (N,) True where a clearance was asked for and the best configuration without it has the arm collide with
             itself or the cell.
-        blocked_by: (N,) there the position in ``clearance.pair_names`` of the pair with the least room; else -1.
+        blocked_by: (N,) there the position in ``clearance.pair_names`` of the pair with the least room, or, where the status is
+            INFEASIBLE, of the pair that most often has the least at the configurations found; else -1.
     """
 
     q: Array
@@ -223,6 +224,14 @@ class Ascent:
         assert self.clearance is not None
         return np.asarray(self.clearance.room(q) >= self.margin)
 
+    def _most_often_nearest(self, owner: NDArray[np.int64], q: Array, poses: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Of each of some poses (H,), the pair that has the least room at most of its configurations among q (K, n)."""
+        assert self.clearance is not None
+        there = np.isin(owner, poses)
+        votes = np.zeros((len(poses), len(self.clearance.pair_names)), dtype=np.int64)
+        np.add.at(votes, (np.searchsorted(poses, owner[there]), self.clearance.closest_pair(q[there])), 1)
+        return np.asarray(votes.argmax(axis=1), dtype=np.int64)
+
     def _started(
         self, poses: Array, first: Reach, seed: np.random.SeedSequence, starts: int, tolerance: float
     ) -> tuple[NDArray[np.int64], Array]:
@@ -301,8 +310,10 @@ class Ascent:
                     if mine.any():
                         choose(owner[mine], q[mine], self._oriented(q[mine]), again)
                         choose(*self._followed(owner[mine], q[mine], poses, tolerance, clear=True), again)
-                    status[again[best[again] == -np.inf]] = Status.INFEASIBLE
+                    hopeless = again[best[again] == -np.inf]
+                    status[hopeless] = Status.INFEASIBLE
                     best[best == -np.inf] = np.nan
+                    blocked_by[hopeless] = self._most_often_nearest(owner, q, hopeless)
             kept = reached[status[reached] != Status.INFEASIBLE]
             found_there = self.objective.statuses(best_q[kept])
             for code in (Status.SINGULAR, Status.UNDEFINED):

@@ -15,6 +15,7 @@ from holdfast.cell import solids
 from holdfast.cell.meshes import Mesh, Points
 from holdfast.clearance.capsules import Capsule
 from holdfast.clearance.shape import hull_of
+from holdfast.kernels.recall import recalled_data
 from holdfast.shapes.pieces import Piece
 
 Array = NDArray[np.float64]
@@ -90,7 +91,8 @@ class Body:
         if self.kind == "mesh":
             return _nothing(), np.zeros(0)
         if self.kind in ("box", "convex"):
-            return _spheres_within(*self.planes, self._corners())
+            balls = np.array(_spheres_within(*self.planes, self._corners())).reshape(-1, 4)
+            return balls[:, :3], balls[:, 3]
         if self.kind == "ellipsoid":
             return np.zeros((1, 3)), np.array([min(self.size)])
         radius, length = (*self.size, 0.0)[:2]
@@ -204,8 +206,12 @@ def of_piece(piece: Piece) -> Body:
     return Body(kind="mesh", pose=piece.pose, vertices=piece.vertices, faces=piece.faces)
 
 
-def _spheres_within(normals: Array, offsets: Array, corners: Array) -> tuple[Array, Array]:
-    """Centres and radii of spheres within a hull: each the one that covers most of what the others leave."""
+@recalled_data
+def _spheres_within(normals: Array, offsets: Array, corners: Array) -> list[list[float]]:
+    """Centres and radii, m, of spheres within a hull: each the one that covers most of what the others leave.
+
+    They take 0.1 s a hull, and are remembered.
+    """
     low, size = corners.min(axis=0), np.ptp(corners, axis=0)
     counts = np.maximum(np.ceil(_GRID * size / size.max()).astype(int), 3)
     axes = [low[k] + size[k] * (np.arange(counts[k]) + 0.5) / counts[k] for k in range(3)]
@@ -213,7 +219,7 @@ def _spheres_within(normals: Array, offsets: Array, corners: Array) -> tuple[Arr
     room = (offsets - points @ normals.T).min(axis=1)
     points, room = points[room > 0], room[room > 0]
     if not len(points):
-        return _nothing(), np.zeros(0)
+        return []
     covers = ((points[:, None] - points) ** 2).sum(axis=2) <= room[:, None] ** 2
     left, chosen = np.ones(len(points), dtype=np.bool_), list[int]()
     while len(chosen) < _WITHIN:
@@ -222,4 +228,5 @@ def _spheres_within(normals: Array, offsets: Array, corners: Array) -> tuple[Arr
             break
         chosen.append(best)
         left &= ~covers[best]
-    return points[chosen], room[chosen]
+    found: list[list[float]] = np.column_stack([points[chosen], room[chosen]]).tolist()
+    return found

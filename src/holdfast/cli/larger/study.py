@@ -119,7 +119,7 @@ def run(
         return
     if out is None:
         raise InputError("--out is missing; give a folder for the results, or --dry-run")
-    with _runner(scheduler) as runner, _stopping() as stop, _progress(json_) as progress:
+    with _runner(scheduler) as runner, stopping() as stop, chunks_progress(json_) as progress:
         study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
         problems = study.run(asked.cells, runner, progress, stop=stop, part=share)
     printed(study, json_)
@@ -150,7 +150,7 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
     """
     from holdfast.engine.verification import verify as verified
 
-    with _progress(json_) as progress:
+    with chunks_progress(json_) as progress:
         found = verified(folders, progress)
     printed(found, json_)
     found.require_ok()
@@ -173,7 +173,7 @@ def merge(
     target, others = (folders[0], folders[1:]) if out is None else (out, folders)
     if not others:
         raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
-    with _progress(json_) as progress:
+    with chunks_progress(json_) as progress:
         found = join(target, others, progress)
     printed(found, json_)
 
@@ -225,7 +225,7 @@ def _runner(scheduler: str | None) -> Iterator[Any]:
 
 
 @contextmanager
-def _stopping() -> Iterator[Callable[[], bool]]:
+def stopping() -> Iterator[Callable[[], bool]]:
     """Ctrl-C and SIGTERM (as cluster managers send it) stop the study once; the second one stops the program."""
     asked = False
 
@@ -245,7 +245,7 @@ def _stopping() -> Iterator[Callable[[], bool]]:
 
 
 @contextmanager
-def _progress(quiet: bool) -> Iterator[Any]:
+def chunks_progress(quiet: bool) -> Iterator[Any]:
     """A bar while a person looks; it says how much time is left, as does the line on stderr where there is none."""
     with progress_bar(quiet, "chunks") as bar:
         yield None if bar is None else lambda done, total, _: bar(done, total)

@@ -34,7 +34,10 @@ def key_table(result: Assessment) -> Rows:
     if counts.sum() > 0:
         k = int(counts.argmax())
         rows.append(
-            ["most often the worst failure", f"{result.index.failure_names[k]} ({counts[k] / counts.sum():.0%} of them)"]
+            [
+                "most often the worst failure",
+                f"{result.index.failure_names[k]} ({100 * counts[k] / counts.sum():.0f} % of them)",
+            ]
         )
     return Rows(["", ""], rows)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from holdfast.present.assessment.facts import Facts
 from holdfast.report.figures import frame
 from holdfast.report.page import Block, Extra
-from holdfast.words import as_given, interval
+from holdfast.words import as_given, interval, together
 
 Array = NDArray[np.float64]
 
@@ -88,6 +88,7 @@ def slider(
     """
     start = int(np.flatnonzero(asked == f.threshold)[0])
     names, missed, seen = bars
+    answers = {label: [together(text) for text in texts] for label, texts in answers.items()}
     data = {
         "values": asked.tolist(),
         "thresholds": [as_given(x) for x in asked.tolist()],

@@ -58,6 +58,8 @@ def story(check: CellCheck) -> Story:
     answer = first if not others else others[-2] if check.ok and check.arm else others[0]
     if check.ok and check.arm and not check.colliding:
         answer = f"In none of {check.samples} configurations within the limits does the arm touch an object, by the bound"
+    from markupsafe import Markup
+
     return Story(
         "Check of a cell",
         answer.rstrip(".") + ".",
@@ -69,6 +71,6 @@ def story(check: CellCheck) -> Story:
                 "Distances",
                 "lower bounds: of the spheres that cover the arm, from formulas and grids that are never above the truth",
             ),
-            ("SHA-256 of the cell", check.digest),
+            ("SHA-256 of the cell", Markup("<code>{}</code>").format(check.digest)),
         ],
     )

@@ -63,6 +63,7 @@ def _injected(tried: Injection) -> dict[str, Any]:
         "high": p.high,
         "confidence": p.confidence,
         "alike": tried.alike,
+        "told": int(tried.told.sum()),
         "disagreements": tried.disagreements,
     }
 

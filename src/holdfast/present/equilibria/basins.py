@@ -41,14 +41,12 @@ def story(found: Basins) -> Story:
     told, count = points_of.story(points), counted(len(found.end), "start")
     away = max((x for x in found.shares if not _reached(found, x[0])), key=lambda x: x[1].value, default=None)
     lost = points_of.where(points)
+    sure = f"{100 * p.confidence:.4g} %"
     if p.value == 0:
         out = "" if (points.kind == Kind.SOLUTION).any() else ": it is out of reach"
-        answer = f"With {lost} none of {count} reaches the target{out} (at most {percent(p.high)} would, {p.confidence:.0%})."
+        answer = f"With {lost} none of {count} reaches the target{out} (at most {percent(p.high)} would, {sure})."
     else:
-        answer = (
-            f"With {lost} {percent(p.value)} of {count} reach the target ({percent(p.low)} to "
-            f"{percent(p.high)}, {p.confidence:.0%})."
-        )
+        answer = f"With {lost} {percent(p.value)} of {count} reach the target ({percent(p.low)} to {percent(p.high)}, {sure})."
     off = _off(found)
     if away is not None and away[1].value:
         answer = answer[:-1] + f"; {percent(away[1].value)} end {_words(away[0])}{off.get(away[0], '')}."
@@ -68,7 +66,7 @@ def story(found: Basins) -> Story:
             ("Starts", f"{count}: {many}; each is simulated until it stops or the time limit comes"),
             (
                 "Intervals",
-                f"{p.confidence:.0%}, exact (Clopper-Pearson); of a grid those that as many random starts would have",
+                f"{100 * p.confidence:.4g} %, exact (Clopper-Pearson); of a grid those that as many random starts would have",
             ),
             *told.method[:-1],
         ],

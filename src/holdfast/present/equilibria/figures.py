@@ -62,7 +62,7 @@ def basins_figure(basins: Basins) -> Figure:
     caption = f"{arm.name}, {points.law.name}; {where}; {len(basins.end)} starts"
     shares = basins.shares
     if basins.shape is None:
-        sure = f"{caption}; lines: {basins.confidence:.0%} intervals"
+        sure = f"{caption}; lines: {100 * basins.confidence:.4g} % intervals"
         return share_bars([n for n, _ in shares], [(i.value, i.low, i.high) for _, i in shares], sure)
     first, second = basins.healthy
     codes, cells = np.unique(basins.end, return_inverse=True)

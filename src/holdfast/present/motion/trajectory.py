@@ -141,9 +141,13 @@ class _Facts:
         if t.clearance is not None and t.nearest is not None:
             rows.append(("Smallest clearance", f"{1000 * t.clearance[t.nearest[0]]:.4g} mm, {t.nearest[1]}"))
         if t.rate_cap is not None:
-            rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))
+            rows.append(
+                ("Self-motion slowed by the cap", f"{percent(float(np.mean(t.self_motion < 1 - 1e-9)))} of the samples")
+            )
         if (t.task_share < 1 - 1e-9).any():
-            rows.append(("End effector slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
+            rows.append(
+                ("End effector slowed by joint limits", f"{percent(float(np.mean(t.task_share < 1 - 1e-9)))} of the samples")
+            )
         return [Table(rows)]
 
     # ---- the arm -----------------------------------------------------------------------------------------------
@@ -199,7 +203,7 @@ class _Facts:
                     " Best continuous motion: dynamic programming over these manifolds, on points between 0.05 rad apart."
                 )
             if not ok.all():
-                caption += f" No continuous motion was found for {np.mean(~ok):.0%} of the samples."
+                caption += f" No continuous motion was found for {percent(float(np.mean(~ok)))} of the samples."
         unit = "" if t.objective.unit == "1" else f", {t.objective.unit}"
         panels = [Timeline(lines, f"objective{unit}" if len(unit) < 24 else "objective", t.objective.name, self.singular)]
         for measure in susceptibilities(t.objective):

@@ -43,7 +43,7 @@ def key_table(region: TolerantWorkspace) -> Rows:
     each = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
     return Rows(
         ["joint", "artificial limits", "lost by its lock"],
-        [[j.name, ranges([limits], j), f"{lost:.1%}"] for j, limits, lost in each],
+        [[j.name, ranges([limits], j), percent(lost)] for j, limits, lost in each],
     )
 
 
@@ -71,7 +71,7 @@ def story(region: TolerantWorkspace) -> Story:
     facts = []
     if region.inside.any():
         low, high = region.size_interval
-        about = "" if region.exact else f"; {number(low)} to {number(high)}, {region.confidence:.0%}"
+        about = "" if region.exact else f"; {number(low)} to {number(high)}, {100 * region.confidence:.4g} %"
         facts = [
             (percent(region.share), "of the workspace is kept wherever a joint locks"),
             (f"{number(region.size)} {unit}", f"of {number(region.healthy_size)} {unit}{about}"),
@@ -125,7 +125,7 @@ def show(region: TolerantWorkspace, out: Console) -> None:
     out.print(escape(region.describe()[0]), soft_wrap=True)
     table = Grid("joint", "artificial limits", "points lost by its lock")
     for joint, limits, lost in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
-        table.add_row(escape(joint.name), ranges([limits], joint), f"{lost:.1%}")
+        table.add_row(escape(joint.name), ranges([limits], joint), percent(lost))
     out.print(table)
     if not region.exact:
         out.print("values between the tried ones, and configurations that were not found, are not in the interval")

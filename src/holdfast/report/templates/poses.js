@@ -31,10 +31,10 @@ extras.poses = function (box, data) {
       (failure ? "worst if " + failure.name + " locks" : "singular");
     box.querySelector(".told").textContent = told;
     box.querySelector(".where").textContent = "tool at " + Array.from(row.subarray(3, 6), function (x) { return x.toFixed(3); })
-      .join(", ").replace(/-/g, "\u2212") + " m";
+      .join(", ").replace(/-/g, "\u2212") + "\u00a0m";
     box.querySelectorAll(".joints dd").forEach(function (cell, j) {
       const joint = data.joints[j];
-      cell.textContent = (q[j] * joint.scale).toFixed(joint.unit === "m" ? 3 : 1).replace("-", "\u2212") + " " + joint.unit;
+      cell.textContent = (q[j] * joint.scale).toFixed(joint.unit === "m" ? 3 : 1).replace("-", "\u2212") + "\u00a0" + joint.unit;
     });
     copied.lastChild.textContent = data.command + " --q=" + q.map(function (x) { return x.toFixed(6); }).join(",") +
       (failure ? failure.option : "");

@@ -30,7 +30,7 @@ extras.threshold = function (box, data) {
     bars.forEach(function (bar, n) {
       const each = order[n];
       bar.querySelector(".name").textContent = data.failures[each.n];
-      bar.querySelector(".part").textContent = (100 * each.part).toFixed(1) + " %";
+      bar.querySelector(".part").textContent = (100 * each.part).toFixed(1) + "\u00a0%";
       bar.querySelector(".bar").style.width = 100 * each.part + "%";
     });
   }

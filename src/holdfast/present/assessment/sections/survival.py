@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.assessment.plan import LOCK_RESTARTS
+from holdfast.clearance.exact.sharper import Sharper
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
@@ -67,7 +68,11 @@ def _clear(f: Facts) -> str:
 
 
 def _and_clear(f: Facts) -> str:
-    return "" if f.a.clear is None else f", clear of {f.everything}"
+    clearance = f.a.plan.clearance
+    if f.a.clear is None or clearance is None:
+        return ""
+    known = f"exact where small, {clearance.exact_by}" if isinstance(clearance, Sharper) else "lower bounds"
+    return f", clear of {f.everything} (distances: {known})"
 
 
 def _whole(f: Facts) -> float:

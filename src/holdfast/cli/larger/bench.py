@@ -1,0 +1,75 @@
+"""``holdfast bench``: suites of cases that anyone can run again, ours and others' planners on the same ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.clearance import CellOption
+from holdfast.cli.larger.study import chunks_progress, stopping
+from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
+from holdfast.present.results import printed, said
+
+command = typer.Typer(name="bench", help="Suites of cases, for comparing planners.", no_args_is_help=True)
+
+
+@command.callback()
+def _root() -> None:
+    """Suites of cases, for comparing planners."""
+
+
+@command.command("fail-active")
+def fail_active(
+    arm: ArmArgument = "panda",
+    out: Annotated[Path, typer.Option("--out", help="Folder for the cases and results.", show_default=False)] = Path(
+        "fail-active"
+    ),
+    cases: Annotated[
+        int, typer.Option("--cases", min=1, help="Cases of each task that reaches a pose; of the others a tenth.")
+    ] = 1000,
+    task: Annotated[
+        list[str] | None, typer.Option("--task", help="Only this one; may be given again.", show_default=False)
+    ] = None,
+    planner: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--planner",
+            help="recover, differential-ik, differential-ik-8-starts, rrt-connect or ompl-rrt-connect; may be given again.",
+            show_default="recover",
+        ),
+    ] = None,
+    cell: CellOption = None,
+    seconds: Annotated[float, typer.Option("--seconds", help="Time limit of a case, on one thread.")] = 10.0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same cases.")] = 1,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, tray.
+
+    Ctrl-C stops after the current cases; the same command resumes.
+
+    Example: holdfast bench fail-active panda --cases 100 --task reach-pose --task line --out fail-active
+    """
+    model = read_arm(arm, base, tip, hold)
+    with stopping() as stop, chunks_progress(json_) as progress:
+        found = hf.bench.fail_active(
+            model,
+            out,
+            cell=cell,
+            cases=cases,
+            tasks=task,
+            planners=planner or ["recover"],
+            seconds=seconds,
+            seed=seed,
+            progress=progress,
+            stop=stop,
+        )
+    files = found.save(out, command=said())
+    printed(found, json_, files)
+    if stop():
+        raise KeyboardInterrupt
