@@ -278,7 +278,7 @@ def test_from_afar_little_is_lost(rng, kind):
         "flat": lambda: Points("plate", rng.uniform(-0.4, 0.4, (500, 3)) * [1, 1, 0], radius=0.02),
     }[kind]()
     middle, half = made.field.middle, outside.half(made.field.grid)
-    points = middle + (half + [0.05]) * 2 ** rng.uniform(0, 3, (500, 1)) * on_cube(rng, 500)
+    points = middle + (half + 0.05) * 2 ** rng.uniform(0, 3, (500, 1)) * on_cube(rng, 500)
     if isinstance(made, Points):
         exact = cKDTree(made.centres).query(points)[0] - made.radius
     else:
@@ -287,7 +287,7 @@ def test_from_afar_little_is_lost(rng, kind):
     assert (bound <= exact + 1e-9).all()
     size = np.ptp(made.surface.vertices if isinstance(made, Mesh) else made.centres, axis=0).max()
     assert (exact - bound).mean() < 0.002 * size
-    assert (exact - bound).max() < 0.01 * size
+    assert (exact - bound).max() < 0.02 * size
 
 
 def on_cube(rng, count: int) -> np.ndarray:

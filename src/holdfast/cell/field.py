@@ -12,19 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.caching import cached_property
 from holdfast.cell.interpolation import Tables, bounds
 from holdfast.cell.nodes import DIAGONAL, Grid, between, cut, inside, points, triangles
-from holdfast.cell.outside import half, nearest_to, outside
+from holdfast.cell.outside import ACROSS, AWAY, half, nearest_to, seen_from_outside
 from holdfast.files.mesh import Triangles
 from holdfast.kernels import cache
 
 Array = NDArray[np.float64]
-Made = tuple[Grid, Array, NDArray[np.float32], float]  # grid, signed distances of its nodes, and what outside() gives
+Made = tuple[Grid, Array, NDArray[np.float32], float]  # grid, signed distances of its nodes, and what is seen from outside
 
-_FORMAT = 2  # of what is on the disk; another number where the making changes
+_FORMAT = 3  # of what is on the disk; another number where the making changes
 _NODES = 1_000_000
 _FINEST = 1e-3  # m
 _RIM = 2.0  # widths
 _LONGEST = 4.0  # widths: edge of the triangles that nodes are compared with
-_APART = 3.0  # widths: edge of the triangles whose corners are what is seen from outside
 _AT_ONCE = 1 << 13  # points
 
 
@@ -42,7 +41,7 @@ class Field:
     Attributes:
         grid: The nodes, in the object's own frame.
         values: What the signed distance of each node is at least, m.
-        beyond: (6, ACROSS, ACROSS, AWAY) what is seen from outside, see :func:`holdfast.cell.outside.outside`.
+        beyond: (6, ACROSS, ACROSS, AWAY) what is seen from outside, see :func:`holdfast.cell.outside.seen_from_outside`.
         reach: How far any of it is from the middle of the grid, m.
         less: Taken away from the distance at the end, m: the radius of the balls of a cloud.
     """
@@ -105,19 +104,19 @@ def _of_surface(surface: Triangles) -> Made:
     within = inside(grid, surface.vertices, surface.faces, below)
     # The foot of a point on the surface is in a cut triangle. A corner of that which is in the same plane, or on the same edge,
     # is within the longest edge over the root of 3 of the foot, and farther from the point by Pythagoras.
-    longest = _APART * grid.width
+    longest = half(grid).max() / ACROSS
     samples = np.unique(cut(corners, longest).reshape(-1, 3), axis=0)
-    return grid, np.where(within, -above, below), *outside(grid, samples, longest / np.sqrt(3))
+    return grid, np.where(within, -above, below), *seen_from_outside(grid, samples, longest / np.sqrt(3))
 
 
 def _of_points(centres: Array) -> Made:
     grid = Grid.around(centres.min(axis=0), centres.max(axis=0), _RIM, _NODES, _FINEST)
-    return grid, between(grid, points(centres))[0], *outside(grid, centres, 0.0)
+    return grid, between(grid, points(centres))[0], *seen_from_outside(grid, centres, 0.0)
 
 
 def _kept(digest: str, make: Callable[[], Made], less: float) -> Field:
     """From the disk, or made and put there."""
-    name = cache.key(digest, "field", _FORMAT, _NODES, _FINEST)
+    name = cache.key(digest, "field", _FORMAT, _NODES, _FINEST, ACROSS, AWAY)
     found = cache.load(name)
     if found is not None:
         stored = np.load(io.BytesIO(found), allow_pickle=False)

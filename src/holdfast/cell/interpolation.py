@@ -32,16 +32,18 @@ class Place(NamedTuple):
 
     Attributes:
         grid: (3,) in the grid, widths from its first node.
-        beyond: (3,) in the table of a face, steps from its first node.
+        table: (3,) in what is seen from outside, steps from the first node of a face.
         face: Which.
-        far: r.
+        beyond: How far outside the box of the grid, m; below 0 within.
+        far: r, m.
         own: (3,) from the middle of the grid, m.
         half: (3,) half the edges of the grid, m.
     """
 
     grid: Vector
-    beyond: Vector
+    table: Vector
     face: SX
+    beyond: SX
     far: SX
     own: Vector
     half: Vector
@@ -89,7 +91,7 @@ def _place_kernel() -> Kernel:
     """(7,) places of a point (3,) in the two tables, and the face; of facts."""
     at, facts = ca.SX.sym("at", 3), ca.SX.sym("facts", FACTS)
     place = _place(at, facts)
-    return Kernel("place in a field", [at, facts], [ca.vertcat(*place.grid, *place.beyond, place.face)])
+    return Kernel("place in a field", [at, facts], [ca.vertcat(*place.grid, *place.table, place.face)])
 
 
 @cache
@@ -99,12 +101,11 @@ def _bound_kernel() -> Kernel:
     place, width = _place(at, facts), facts[3]
     t = [x - cells[k] for k, x in enumerate(place.grid)]
     inner = _in_grid(ca.vertsplit(corners[:8]), t, width)
-    s = [x - cells[3 + k] for k, x in enumerate(place.beyond)]
+    one, two, root = place.table
+    last = cells[5]
+    s = [one - cells[3], two - cells[4], (root * root - last * last) / (2 * last + 1)]
     outer = _from_outside(ca.vertsplit(corners[8:]), s, place, facts[8])
-    depth = [place.half[k] - ca.fabs(place.own[k]) for k in range(3)]
-    least = ca.if_else(depth[0] < depth[1], depth[0], depth[1])
-    least = ca.if_else(depth[2] < least, depth[2], least)
-    share = 1 - least / width  # of what is seen from outside
+    share = 1 + place.beyond / width  # of what is seen from outside
     value = ca.if_else(share <= 0, inner, ca.if_else(share >= 1, outer, inner + share * (outer - inner)))
     ball = _root(_square(place.own)) - facts[9]
     value = ca.if_else(value < ball, ball, value)
@@ -112,20 +113,23 @@ def _bound_kernel() -> Kernel:
 
 
 def _place(at: SX, facts: SX) -> Place:
-    half = [facts[3] * facts[4 + k] / 2 for k in range(3)]
+    width = facts[3]
+    half = [width * facts[4 + k] / 2 for k in range(3)]
     own = [at[k] - facts[k] - half[k] for k in range(3)]
-    on_box = [own[k] / half[k] for k in range(3)]
-    size = [ca.fabs(x) for x in on_box]
-    first, second = ca.logic_and(size[0] >= size[1], size[0] >= size[2]), size[1] >= size[2]
-    # The coordinate of the face, then those that follow.
-    along, one, two = (
-        ca.if_else(first, on_box[k], ca.if_else(second, on_box[(k + 1) % 3], on_box[(k + 2) % 3])) for k in range(3)
-    )
-    far = ca.fabs(along)
-    some = ca.if_else(far > 0.25, far, 1.0)  # what is looked up is at least 0.5
-    beyond = [(one / some + 1) * ((ACROSS - 1) / 2), (two / some + 1) * ((ACROSS - 1) / 2), (AWAY - 1) / (some * facts[7])]
-    face = 2 * ca.if_else(first, 0.0, ca.if_else(second, 1.0, 2.0)) + ca.if_else(along > 0, 1.0, 0.0)
-    return Place([(at[k] - facts[k]) / facts[3] for k in range(3)], beyond, face, far, own, half)
+    out = [ca.fabs(own[k]) - half[k] for k in range(3)]
+    first, second = ca.logic_and(out[0] >= out[1], out[0] >= out[2]), out[1] >= out[2]
+
+    def turned(v: Vector, k: int) -> SX:
+        """The coordinate of the face for k = 0, then those that follow."""
+        return ca.if_else(first, v[k], ca.if_else(second, v[(k + 1) % 3], v[(k + 2) % 3]))
+
+    beyond = turned(out, 0)
+    z = ca.if_else(beyond > -width, beyond, -width)  # deeper within nothing is looked up
+    share = [turned(own, k) / (turned(half, k) + z) for k in (1, 2)]
+    far = z + width + 1 / facts[7]
+    table = [*((x + 1) * ((ACROSS - 1) / 2) for x in share), (AWAY - 1) / ca.sqrt(far * facts[7])]
+    face = 2 * ca.if_else(first, 0.0, ca.if_else(second, 1.0, 2.0)) + ca.if_else(turned(own, 0) > 0, 1.0, 0.0)
+    return Place([(at[k] - facts[k]) / width for k in range(3)], table, face, beyond, far, own, half)
 
 
 def _in_grid(corners: Vector, t: Vector, width: SX) -> SX:

@@ -1,9 +1,13 @@
 """The distance from a surface or a cloud as seen from outside a box about it, as far as one likes, by few numbers.
 
-For a point p, the box's centre the origin, ``E = (|p|^2 - d^2) / r = max_s (2 u.s - |s|^2 / r)`` over all s of the surface,
-where ``p = r u`` and u is on the box. On each face of the box E is convex in u and ``1 / r``, as it is a maximum of affine
-functions; so what is interpolated between nodes is never below it, and the distance that follows never above the true one.
-The two are equal wherever the same s is the nearest to all nodes of a cell, however far away they are.
+A point p, the box's centre the origin, is on a larger box: all faces of the first one, with half edges b, moved outward by z.
+On face k ``p_k = +-(b_k + z)``, and along it ``p_i = a_i (b_i + z)`` with ``|a_i| <= 1``. With ``r = z + e`` for a length e
+
+    E = (|p|^2 - d^2) / r = max_s (2 s.p / r - |s|^2 / r)
+
+over all s of the surface is convex in ``p / r`` and ``1 / r``, being a maximum of affine functions. Both are affine in each of
+``a_i`` and ``1 / r``, so trilinear interpolation in these has the right mean; what it says of E is never below it (Jensen), and
+the distance that follows never above the true one. The two are equal wherever the same s is the nearest to all nodes of a cell.
 """
 
 from __future__ import annotations
@@ -16,12 +20,7 @@ from holdfast.cell.nodes import Grid
 Array = NDArray[np.float64]
 
 ACROSS = 33  # nodes along the edges of a face
-AWAY = 17  # nodes of 1 / r, from 0
-
-
-def nearest_to(grid: Grid) -> float:
-    """The largest 1 / r: that of one width within the box of a grid."""
-    return float(1 / (1 - grid.width / half(grid).min()))
+AWAY = 17  # nodes of 1 / r, from 0, as far apart as squares
 
 
 def half(grid: Grid) -> Array:
@@ -29,7 +28,17 @@ def half(grid: Grid) -> Array:
     return np.asarray(grid.width * (np.array(grid.shape) - 1) / 2)
 
 
-def outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray[np.float32], float]:
+def length(grid: Grid) -> float:
+    """The length e, m."""
+    return float(half(grid).max() / 2 + grid.width)
+
+
+def nearest_to(grid: Grid) -> float:
+    """The largest 1 / r, 1/m: that of one width within the box of a grid."""
+    return float(2 / half(grid).max())
+
+
+def seen_from_outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray[np.float32], float]:
     """E and how far the farthest sample is from the middle of the grid, m.
 
     E, (6, ACROSS, ACROSS, AWAY), m, is rounded up: faces (low x, high x, low y, ...), the two coordinates that follow, 1 / r.
@@ -42,10 +51,11 @@ def outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray[np.float3
     """
     from scipy.spatial import cKDTree
 
-    edges = half(grid)
+    edges, e = half(grid), length(grid)
     own = samples - (grid.origin + edges)
     tree, square = cKDTree(own), (own * own).sum(axis=1)
-    inverse = np.linspace(0, nearest_to(grid), AWAY)
+    reach = float(np.sqrt(square.max()))
+    inverse = nearest_to(grid) * np.linspace(0, 1, AWAY) ** 2
     across = np.linspace(-1, 1, ACROSS)
     a, b = (x.ravel() for x in np.meshgrid(across, across, indexing="ij"))
     found = np.empty((6, ACROSS * ACROSS, AWAY))
@@ -54,11 +64,11 @@ def outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray[np.float3
         on_box = np.empty((len(a), 3))
         on_box[:, axis] = 2.0 * (face % 2) - 1.0
         on_box[:, (axis + 1) % 3], on_box[:, (axis + 2) % 3] = a, b
-        on_box *= edges
         for k, share in enumerate(inverse[1:], start=1):
-            nearest = tree.query(on_box / share)[1]
-            found[face, :, k] = 2 * (on_box * own[nearest]).sum(axis=1) - share * (square[nearest] - apart * apart)
-    # Infinitely far away: E changes with 1 / r by at most the square of the farthest s.
-    found[:, :, 0] = found[:, :, 1] + inverse[1] * square.max()
+            scaled = on_box * (1 + (edges - e) * share)  # p / r
+            nearest = tree.query(scaled / share)[1]
+            found[face, :, k] = 2 * (scaled * own[nearest]).sum(axis=1) - share * (square[nearest] - apart * apart)
+    # Infinitely far away: what E can be more there than at the next node.
+    found[:, :, 0] = found[:, :, 1] + inverse[1] * reach * (2 * np.linalg.norm(edges - e) + reach)
     above = np.nextafter(found.astype(np.float32), np.float32(np.inf))
-    return above.reshape(6, ACROSS, ACROSS, AWAY), float(np.sqrt(square.max()))
+    return above.reshape(6, ACROSS, ACROSS, AWAY), reach
