@@ -222,7 +222,7 @@ def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
 
 def test_files(small, tmp_path, monkeypatch):
     w = small["procedure"]
-    monkeypatch.setattr(workspace_output, "figures", lambda w: {})  # those of the command are looked at in its test
+    monkeypatch.setattr(workspace_output, "drawings", lambda w: {})  # those of the command are looked at in its test
     assert [file.name for file in w.save(tmp_path)] == ["workspace.csv", "workspace.json", "report.html"]
     lines = (tmp_path / "workspace.csv").read_text().splitlines()
     assert len(lines) == len(w.places) + 1

@@ -219,7 +219,7 @@ class _Search:
     def run(self, until: float, most: int, first: bool) -> Finding:
         """Look until all is decided, or no more may be done."""
         ends = first or self._more
-        with working("boxes of joints") as advance:
+        with working("halving boxes of joints") as advance:
             while self._stack:
                 if time.perf_counter() > until or self.boxes >= most:
                     return Finding.OPEN
