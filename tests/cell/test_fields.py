@@ -305,3 +305,14 @@ def test_the_bound_has_no_step(rng):
     points = through[:, None] + along * step * np.arange(-20_000, 20_000)[:, None]  # from within to beyond the grid
     rise = np.abs(np.diff(made.signed_distance(points), axis=1)) / step
     assert rise.max() < 10  # a step of 1 mm would be 50
+
+
+def test_of_many_points_few_are_looked_at_and_the_bound_holds(rng, monkeypatch):
+    monkeypatch.setattr(outside, "_MANY", 500)
+    cloud = on_cube(rng, 3000) * [0.5, 0.3, 0.2]
+    made = Points("scan", cloud, radius=0.01)
+    points = rng.uniform(-1, 1, (2000, 3)) * 2
+    exact = cKDTree(cloud).query(points)[0] - 0.01
+    bound = made.signed_distance(points)
+    assert (bound <= exact + 1e-9).all()
+    assert np.median(exact - bound) < 0.08  # the cubes have edges of 0.06 m

@@ -105,8 +105,8 @@ def _of_surface(surface: Triangles) -> Made:
     # The foot of a point on the surface is in a cut triangle. A corner of that which is in the same plane, or on the same edge,
     # is within the longest edge over the root of 3 of the foot, and farther from the point by Pythagoras.
     longest = half(grid).max() / ACROSS
-    samples = np.unique(cut(corners, longest).reshape(-1, 3), axis=0)
-    return grid, np.where(within, -above, below), *seen_from_outside(grid, samples, longest / np.sqrt(3))
+    beyond = seen_from_outside(grid, cut(corners, longest).reshape(-1, 3), longest / np.sqrt(3))
+    return grid, np.where(within, -above, below), *beyond
 
 
 def _of_points(centres: Array) -> Made:

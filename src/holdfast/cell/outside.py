@@ -15,12 +15,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.cell.nodes import Grid
+from holdfast.cell.nodes import DIAGONAL, Grid
 
 Array = NDArray[np.float64]
 
 ACROSS = 33  # nodes along the edges of a face
 AWAY = 17  # nodes of 1 / r, from 0, as far apart as squares
+_MANY = 1 << 16  # points that a search is quick among
+_FINE = 1 << 10  # cubes along an edge
 
 
 def half(grid: Grid) -> Array:
@@ -53,8 +55,9 @@ def seen_from_outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray
 
     edges, e = half(grid), length(grid)
     own = samples - (grid.origin + edges)
-    tree, square = cKDTree(own), (own * own).sum(axis=1)
-    reach = float(np.sqrt(square.max()))
+    reach = float(np.sqrt((own * own).sum(axis=1).max()))
+    few, off = _thinned(own)
+    tree = cKDTree(few)
     inverse = nearest_to(grid) * np.linspace(0, 1, AWAY) ** 2
     across = np.linspace(-1, 1, ACROSS)
     a, b = (x.ravel() for x in np.meshgrid(across, across, indexing="ij"))
@@ -65,10 +68,26 @@ def seen_from_outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray
         on_box[:, axis] = 2.0 * (face % 2) - 1.0
         on_box[:, (axis + 1) % 3], on_box[:, (axis + 2) % 3] = a, b
         for k, share in enumerate(inverse[1:], start=1):
-            scaled = on_box * (1 + (edges - e) * share)  # p / r
-            nearest = tree.query(scaled / share)[1]
-            found[face, :, k] = 2 * (scaled * own[nearest]).sum(axis=1) - share * (square[nearest] - apart * apart)
+            at = on_box * (1 / share + edges - e)
+            distance = np.maximum(tree.query(at)[0] - off, 0.0)
+            found[face, :, k] = share * ((at * at).sum(axis=1) - np.maximum(distance * distance - apart * apart, 0.0))
     # Infinitely far away: what E can be more there than at the next node.
     found[:, :, 0] = found[:, :, 1] + inverse[1] * reach * (2 * np.linalg.norm(edges - e) + reach)
     above = np.nextafter(found.astype(np.float32), np.float32(np.inf))
     return above.reshape(6, ACROSS, ACROSS, AWAY), reach
+
+
+def _thinned(points: Array) -> tuple[Array, float]:
+    """Points (M, 3), not very many, and how far any of those given (N, 3) is from the nearest at most, m."""
+    if len(points) <= 8 * _MANY:
+        points = np.unique(points, axis=0)
+    if len(points) <= _MANY:
+        return points, 0.0
+    low, edge = points.min(axis=0), float(np.ptp(points, axis=0).max()) / _FINE
+    cubes = np.floor((points - low) / edge).astype(np.int64)
+    while True:
+        one = np.unique((cubes[:, 0] * 2 * _FINE + cubes[:, 1]) * 2 * _FINE + cubes[:, 2])
+        cubes = np.stack([one // (4 * _FINE**2), one // (2 * _FINE) % (2 * _FINE), one % (2 * _FINE)], axis=1)
+        if len(cubes) <= _MANY:
+            return low + edge * (cubes + 0.5), float(DIAGONAL * edge * (1 + 1e-9))
+        cubes, edge = cubes // 2, 2 * edge
