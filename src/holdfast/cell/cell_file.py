@@ -29,6 +29,7 @@ numbers, a mesh ``{vertices: [...], faces: [...]}`` and points a list.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -205,7 +206,7 @@ def _pose(pose: list[list[float]] | _Placement | None, place: str) -> Array:
     if pose.rpy is not None:
         out[:3, :3] = rpy_rotation(pose.rpy)
     elif pose.quaternion is not None:
-        size = float(np.linalg.norm(pose.quaternion))
+        size = math.hypot(*pose.quaternion)
         if not abs(size - 1) < _UNIT:
             raise InputError(f"{place}.pose: the quaternion (x, y, z, w) has length {size:g}; it must be 1")
         out[:3, :3] = rotations_of_quaternions(pose.quaternion)
