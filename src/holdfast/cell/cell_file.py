@@ -215,10 +215,11 @@ def _pose(pose: list[list[float]] | _Placement | None, place: str) -> Array:
 
 def _upright(normal: Array, place: str) -> Array:
     """(4, 4) rotation of z onto a direction."""
-    size = float(np.linalg.norm(normal))
-    if not size > 0:
+    largest = np.abs(normal).max()
+    if not largest > 0:
         raise InputError(f"{place}.half_space: the direction is 0, 0, 0; give the one that points out of it")
-    z, out = normal / size, np.eye(4)
+    z, out = normal / largest, np.eye(4)
+    z /= np.linalg.norm(z)
     if z[2] > 1 - 1e-15:
         return out
     x = np.cross(np.eye(3)[np.abs(z).argmin()], z)
