@@ -27,7 +27,7 @@ from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachab
 from holdfast.recovery.question import SAME, Goal, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
-from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route
+from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route, in_vain
 from holdfast.recovery.rows import RowSolver, row_solver
 from holdfast.recovery.second_try import bolder
 from holdfast.recovery.verification import Verification, verify
@@ -94,7 +94,7 @@ def recover(
         region: Of targets for what is left of the workspace; else poses of random configurations of the healthy arm.
         samples: How many; 0: none.
         starts: Random starts of the search for configurations.
-        tries: Searches for a route where straight lines are blocked.
+        tries: Searches for a route where straight lines are blocked; when a quarter of them found none, no more are made.
         time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
             seed need not give the same result.
         seed: The same seed gives the same result.
@@ -297,7 +297,7 @@ class _Search:
                 return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
             self._look("looking for a route to the goal")
             reasons.append(
-                f"{len(goals)} configurations of the goal were found and {self.tries} searches led to none of them"
+                f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
                 f"{self._in_the_way(here, goals[0])}"
             )
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason="; ".join(reasons))
@@ -329,6 +329,11 @@ class _Search:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
         everything = tuple(c.rows for c in choices)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
+
+    @property
+    def _searches(self) -> str:
+        count = min(self.tries, in_vain(self.tries))
+        return "1 search" if count == 1 else f"{count} searches"
 
     def _in_the_way(self, here: Array, goal: Array) -> str:
         """What a straight line to a goal meets, if it meets anything."""
