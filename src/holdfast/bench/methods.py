@@ -79,6 +79,7 @@ def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) ->
         goal=case.goal,
         task=case.rows,
         path=case.path,
+        keep=case.keep,
         clearance=False if clearance is None else clearance,
         samples=0,
         starts=STARTS,

@@ -114,6 +114,7 @@ class Recovery(Result):
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
         proof: Why not everything that was asked for can be done, if that is proved; else None.
         proof_kind: Of the proof; see :class:`holdfast.recovery.Verdict`.
+        closed_in: ``start`` or ``goal`` if what was searched from there along the rows kept could not grow any more.
         stopped: At which level the time limit was spent; empty if it was not.
         verified: What other code finds of the motion; None if there is none.
         left: What is left of the workspace, if asked for.
@@ -142,6 +143,7 @@ class Recovery(Result):
     choices: tuple[RowsGivenUp, ...] = ()
     proof: str | None = None
     proof_kind: ProofKind | Literal[""] = ""
+    closed_in: Literal["", "start", "goal"] = ""
     stopped: str = ""
     verified: Verification | None = None
     left: WhatIsLeft | None = None
@@ -186,6 +188,12 @@ class Recovery(Result):
             return Verdict("proved infeasible", self.reason, "start")
         if self.proof_kind:
             return Verdict("proved infeasible", self.proof or "", self.proof_kind)
+        if self.closed_in:
+            there = "the goal" if self.closed_in == "start" else "the start"
+            return Verdict(
+                "argued infeasible",
+                f"searched along the rows kept, what the {self.closed_in} is joined to grows no more, without {there}",
+            )
         if self.stopped:
             return Verdict("undecided", f"the time limit was spent {self.stopped}")
         if self.ending == Ending.NO_ROUTE_FOUND or (self.rest is not None and self.rest.cut_off):

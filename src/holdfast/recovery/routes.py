@@ -21,6 +21,9 @@ _REACH = 0.15  # of the diagonal of the box: length of one step of a tree
 _APART = 5  # pieces of a walk from one node to the next
 _CUTS = 64  # shortcuts tried a round
 _WALKS = 24  # the same where rows are kept exactly
+_QUIET = 20  # rounds of a tree in which hardly a walk leads to where it is not yet: it fills all that it can get to
+_FRESH = 0.1  # of the reach, how far from every node of its tree a walk must lead to count
+_FEW = 4  # walks that do so in these rounds, of 960
 _IDLE = 8  # rounds without a gain before the way counts as short
 
 
@@ -49,7 +52,8 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
     Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by
     trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
     what is found is cut short. Where rows are kept, every line is a walk along them (:meth:`Space.walk`), as in CBiRRT
-    (Berenson, Srinivasa, Ferguson and Kuffner 2009).
+    (Berenson, Srinivasa, Ferguson and Kuffner 2009). If none is found because one of the trees fills all that it can get to,
+    twice, :attr:`Space.closed_in` says which.
     """
     goals = start + space.difference(goals, start)
     direct = metric.length(goals - start)
@@ -57,22 +61,26 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
     order = np.argsort(direct, kind="stable")
     open_ = np.flatnonzero(space.edges(np.repeat(start[None], len(goals), axis=0), goals)[order])
     best: Route | None = None
+    closed_in = list[str]()
     if open_.size:
         k = int(order[open_[0]])
         best = Route(np.stack([start, goals[k]]), float(direct[k]), bound, k, True)
     elif space.manifold is not None:
         ways, whole = space.walk(metric, np.repeat(start[None], len(goals), axis=0), goals - start)
-        for goal in np.flatnonzero(whole).tolist():
-            q = shortened(space, metric, np.concatenate([start[None], ways[goal]]), rng)
-            total = float(metric.along(q)[-1])
-            if best is None or total < best.length:
-                best = Route(q, total, bound, goal, False)
+        walked = [(np.concatenate([start[None], ways[goal]]), goal) for goal in np.flatnonzero(whole).tolist()]
+        if walked:
+            q, goal = min(walked, key=lambda way: float(metric.along(way[0])[-1]))
+            q = shortened(space, metric, q, rng)
+            best = Route(q, float(metric.along(q)[-1]), bound, goal, False)
     for _ in each("searches for a route", range(tries), most=True):
         length = np.inf if best is None else best.length
         some = np.flatnonzero(direct < length * (1 - 1e-9))
-        if not some.size or space.spent or (best is not None and space.manifold is not None and space.manifold.thin):
-            break  # where rows are kept exactly nothing tells how much shorter a way could be
+        if not some.size or space.spent or (best is not None and space.manifold is not None):
+            break  # along rows that are kept a search takes long, and the bound hardly tells how much shorter a way could be
         found = _connect(space, metric, start, goals[some], rng)
+        closed_in.append(space.closed_in)
+        if all(closed_in[-2:]) and len(closed_in) > 1:
+            return None
         if found is None:
             continue
         q, goal = found
@@ -80,6 +88,7 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
         total = float(metric.along(q)[-1])
         if total < length:
             best = Route(q, total, bound, int(some[goal]), len(q) == 2)
+    space.closed_in = ""
     return best
 
 
@@ -140,19 +149,32 @@ def _connect(space: Space, metric: Metric, start: Array, goals: Array, rng: np.r
     """A route from start (n,) to one of the goals (G, n) and which, or None after the last round."""
     here, there = _Tree(space, metric, start[None]), _Tree(space, metric, goals)
     reach = _REACH * float(metric.length(np.where(space.free, space.high - space.low, 0.0)))
-    forward = True
+    space.closed_in = ""
+    forward, fresh = True, {id(here): list[int](), id(there): list[int]()}
     for _ in each("rounds of a search for a route", range(_ROUNDS), most=True):
         if len(here.nodes) + len(there.nodes) > _NODES or space.spent:
             break
         grown, other = (here, there) if forward else (there, here)
         index, away = grown.nearest(space.sample(_BATCH, rng))
         ways, _ = space.walk(metric, grown.nodes[index], _shortened_step(metric, away, reach))
+        if space.manifold is not None:
+            counts = fresh[id(grown)]
+            counts.append(_fresh_ends(metric, grown, ways, reach))
+            if len(counts) >= _QUIET and sum(counts[-_QUIET:]) <= _FEW:
+                space.closed_in = "start" if forward else "goal"
+                break
         new = grown.grow(ways, index)
         met = _meet(space, metric, grown, other, new, reach)
         if met is not None:
             return _joined(space, here, there, met if forward else met[::-1])
         forward = not forward
     return None
+
+
+def _fresh_ends(metric: Metric, tree: _Tree, ways: list[Array], reach: float) -> int:
+    """How many ways end far from everything that the tree holds."""
+    ends = [way[-1] for way in ways if len(way)]
+    return int((metric.length(tree.nearest(np.stack(ends))[1]) > _FRESH * reach).sum()) if ends else 0
 
 
 def _shortened_step(metric: Metric, away: Array, reach: float) -> Array:

@@ -309,10 +309,11 @@ class _Search:
                 return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
             self._look("looking for a route to the goal")
             reasons.append(
-                f"{len(goals)} configurations of the goal were found and {self.tries} searches led to none of them"
+                f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
                 f"{self._in_the_way(here, goals[0])}"
             )
-            return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason="; ".join(reasons))
+            why, closed_in = "; ".join(reasons), self.space.closed_in
+            return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
         boxes = [proved_by(found, made.clearance) for found in every]
         proofs = [bound or box for bound, box in zip(bounds, boxes, strict=True)]
@@ -341,6 +342,11 @@ class _Search:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
         everything = tuple(c.rows for c in choices)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
+
+    @property
+    def _searches(self) -> str:
+        """How many there were, in words."""
+        return f"{self.tries} searches" if not (self.space.spent or self.space.closed_in) else "the searches"
 
     def _in_the_way(self, here: Array, goal: Array) -> str:
         """What a straight line to a goal meets, if it meets anything."""

@@ -87,6 +87,10 @@ class Space:
         margin: m.
         around: (K, n) configurations that the box of samples must hold.
         keep: What is kept of the tool's pose, through the pose at the start.
+
+    Attributes:
+        manifold: Where that is kept; None if nothing is.
+        closed_in: ``start`` or ``goal`` if what was searched from there could not grow; see :func:`find_route`.
     """
 
     def __init__(
@@ -101,6 +105,7 @@ class Space:
     ) -> None:
         self.arm, self.free, self.margin = arm, free, margin
         self._until = np.inf
+        self.closed_in: Literal["", "start", "goal"] = ""
         self.clearance = clearance if clearance is not None and clearance.pair_names else None
         low, high = finite_limits(arm)
         self.low = np.where(free, np.minimum(low, around.min(axis=0)), around[0])
