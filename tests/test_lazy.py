@@ -25,6 +25,7 @@ MODULES = {
     "closed_form",
     "control",
     "indices",
+    "keep",
     "paths",
     "registry",
     "susceptibility",

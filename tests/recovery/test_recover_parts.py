@@ -11,8 +11,8 @@ import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules, Clearance
 from holdfast.recovery import check_waypoints, read_waypoints, write_waypoints
-from holdfast.recovery.routes import Space
 from holdfast.recovery.rows import row_solver
+from holdfast.recovery.space import Space
 
 TASKS = ["pose", "pointing", "position", ["vx", "wy"], "tool"]
 

@@ -17,10 +17,11 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.sharper import Sharper
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.failures import Degraded
+from holdfast.keep.kept import Kept
 from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
-from holdfast.recovery.routes import MetricName
+from holdfast.recovery.space import MetricName
 from holdfast.recovery.verdict import ProofKind, Verdict
 from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
@@ -45,6 +46,7 @@ class Ending(IntEnum):
     START_OUTSIDE_LIMITS = 6
     START_TOO_CLOSE = 7
     LOCK_ELSEWHERE = 8
+    START_BREAKS_ROWS = 9
 
     @property
     def phrase(self) -> str:
@@ -69,6 +71,7 @@ _SENTENCES = {
     Ending.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
     Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself or its cell than the clearance that must be kept",
     Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
+    Ending.START_BREAKS_ROWS: "no motion: where the arm is breaks a row that must be kept all the way",
 }
 
 
@@ -122,6 +125,7 @@ class Recovery(Result):
         clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None. With a cell it is
             the bound, or where that leaves less exact distances.
         margin: m.
+        keep: What is kept along the whole motion.
         seed: The same seed gives the same result.
     """
 
@@ -148,6 +152,7 @@ class Recovery(Result):
     unit: str
     clearance: Clearance | None
     margin: float
+    keep: tuple[Kept, ...] = ()
     seed: int
 
     @property
@@ -177,7 +182,7 @@ class Recovery(Result):
             if self.verified is None or self.verified.ok:
                 return Verdict("solved")
             return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
-        if self.ending in (Ending.START_OUTSIDE_LIMITS, Ending.START_TOO_CLOSE, Ending.LOCK_ELSEWHERE):
+        if self.ending >= Ending.START_OUTSIDE_LIMITS:
             return Verdict("proved infeasible", self.reason, "start")
         if self.proof_kind:
             return Verdict("proved infeasible", self.proof or "", self.proof_kind)
@@ -230,6 +235,7 @@ class Recovery(Result):
             f"{capitalised(self.ending.phrase)}: {self.ending.sentence}",
             f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.solved and self.verified is not None else ""),
         ]
+        lines += [f"kept all the way: {kept}" for kept in self.keep]
         if self.reason:
             lines.append(self.reason)
         if len(self.q) and isinstance(self.clearance, Sharper):
