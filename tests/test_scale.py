@@ -24,7 +24,6 @@ from holdfast.solvers import solve_ik
 EXACT, ROUNDED = [2.0**-10, 2.0**10], [1e-3, 1e3]
 
 
-
 def scaled(arm, size):
     """A copy of an arm of turning joints."""
 
