@@ -149,8 +149,12 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.recover,
             {**at_planar, "locked": {"joint2": 0.6}, "at": q, "goal": [0.4, 0.6, 0.8], "clearance": False, "margin": 0.0}
             | {"metric": "travel", "weights": None, "region": None, "samples": 0, "starts": 4, "tries": 0, "seed": 0}
-            | {"time_limit": 5.0},
+            | {"time_limit": 5.0, "keep": hf.keep.plane([0.0, 0.0, 1.0])},
         ),
+        "keep.upright": (hf.keep.upright, {"angle": 0.1, "axis": [0.0, 0.0, 1.0], "within": [1e-3, 1e-2]}),
+        "keep.rail": (hf.keep.rail, {"direction": [0.0, 0.0, 1.0], "frame": "tool", "pose": np.eye(4)}),
+        "keep.plane": (hf.keep.plane, {"normal": [0.0, 0.0, 1.0], "angle": 0.1, "pose": np.eye(4)}),
+        "keep.by_label": (hf.keep.by_label, {"label": "upright:0.1"}),
         "self_motion": (hf.self_motion, {**at_planar, "target": target, "spacing": 0.3, "seed": 0, "starts": 4}),
         "simulate": (
             hf.simulate,
@@ -330,7 +334,7 @@ def test_a_spoilt_argument_gets_a_sentence(
         function(**arguments)  # compiled before the clock runs
     wrong = []
     for argument in arguments:
-        for k in rng.choice(len(SPOILT), size=6, replace=False):
+        for k in rng.choice(len(SPOILT), size=4, replace=False):
             error = foreign(function, {**arguments, argument: SPOILT[k]})
             if error is not None:
                 wrong.append(f"{argument}={SPOILT[k]!r}: {type(error).__name__}: {error}")

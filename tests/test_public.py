@@ -25,6 +25,7 @@ MODULES = [
     "holdfast.designs",
     "holdfast.indices",
     "holdfast.indices.susceptibility",
+    "holdfast.keep",
     "holdfast.kernels",
     "holdfast.paths",
     "holdfast.report",

@@ -3,6 +3,7 @@ from holdfast import bench as bench
 from holdfast import cell as cell
 from holdfast import control as control
 from holdfast import indices as indices
+from holdfast import keep as keep
 from holdfast import paths as paths
 from holdfast import registry as registry
 from holdfast.arm import DH as DH

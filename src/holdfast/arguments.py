@@ -91,9 +91,10 @@ _ALIASES = {
     "Limits": "ArrayLike | Mapping[str | int, ArrayLike]",
     "TaskSpec": "str | Task | Sequence[str]",
     "CellLike": "Cell | str | Path",
+    "KeepLike": "Kept | str | Sequence[Any]",
     "Array": "ArrayLike",
     "Progress": "Callable",
-    **dict.fromkeys(("JointType", "Method", "MetricName", "Mode", "Over", "RelativeTo", "Sampling"), "str"),
+    **dict.fromkeys(("Frame", "JointType", "Method", "MetricName", "Mode", "Over", "RelativeTo", "Sampling"), "str"),
 }
 
 
@@ -186,7 +187,7 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
 }
 _CLASSES = (
     *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "Degraded", "DesignSpace", "FailureRates", "Index", "Joint"),
-    *("Law", "Link", "Objective", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath", "Trajectory"),
+    *("Kept", "Law", "Link", "Objective", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath", "Trajectory"),
 )
 
 

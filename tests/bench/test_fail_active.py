@@ -40,6 +40,17 @@ def test_a_case_begins_clear_within_what_is_left_and_is_the_same_again(draw, tas
         assert case.path.length == pytest.approx({"line": 0.3, "drawer": 0.25, "tray": 0.3, "wipe": 0.68}[task])
 
 
+def test_an_upright_transfer_is_kept_or_refused(draw):
+    case = draw.case("upright", np.random.default_rng(2))
+    ends = np.stack([draw.arm.forward_kinematics(case.at), case.goal])
+    np.testing.assert_allclose(ends[:, :3, 2], [[0, 0, -1]] * 2, atol=1e-5)
+    bent = case.at + np.where(case.degraded.moves, 0.2, 0.0)
+    assert (
+        trouble(case, Motion(np.stack([case.at, np.clip(bent, case.degraded.lo, case.degraded.hi)]), share=np.zeros(0)), None)
+        == "kept"
+    )
+
+
 def test_the_judge_refuses_what_it_must(draw):
     arm = draw.arm
     begin = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.6, 0.8])

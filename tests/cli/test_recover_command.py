@@ -174,3 +174,28 @@ def test_simulate_and_stationary_points_read_a_failure_file(cli, tmp_path):
         for data in (found, plain):
             data.pop("command", None)
         assert found == plain
+
+
+def test_what_is_kept_on_the_way(cli):
+    call = [
+        "recover",
+        "planar-3r",
+        "--lock",
+        "joint3=0",
+        "--at",
+        "0.9 -1.2 0",
+        "--goal",
+        "pose:1.5323,0.1923,0",
+        "--samples",
+        "0",
+    ]
+    code, text, err = cli(*call, "--task", "planar", "--keep", "plane:0,1,0", "--json")
+    assert (code, err) == (0, "")
+    data = json.loads(text)
+    tool = oracles.forward(hf.arms.load("planar-3r"), np.array(data["waypoints"]))[:, :3, 3]
+    assert np.abs(tool[:, 1] - tool[0, 1]).max() < 1e-4
+    assert data["keep"][0]["name"] == "plane"
+    assert data["verified"]["kept"][0]["off"] <= 1e-3
+    code, _, err = cli(*call, "--keep", "upwards:3")
+    assert code == 2
+    assert "use one of upright, rail, plane" in err

@@ -84,6 +84,7 @@ INPUTS = named(
         "engine": "Cell Chunk Column Task",
         "equilibria": "Linearisation",
         "indices": "Index",
+        "keep": "Kept",
         "indices.susceptibility": "Formula Susceptibility",
         "paths": "Constant Path TimedPath Trapezoid",
         "studies": "StudyFile",

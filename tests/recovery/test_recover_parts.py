@@ -11,8 +11,8 @@ import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules, Clearance
 from holdfast.recovery import check_waypoints, read_waypoints, routes, write_waypoints
-from holdfast.recovery.routes import Space
 from holdfast.recovery.rows import row_solver
+from holdfast.recovery.space import Metric, Space
 
 TASKS = ["pose", "pointing", "position", ["vx", "wy"], "tool"]
 
@@ -153,6 +153,6 @@ def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, t
     cell = hf.Cell([hf.cell.Sphere("ball", 0.2, pose=[0.8, 0, 0])])
     ends = np.array([[0.9, 0.3, 0.4], [-0.9, 0.3, 0.4]])
     space = Space(arm, np.array([True, False, False]), Clearance(arm, cell=cell, itself=False), 0.0, ends)
-    metric = routes.Metric.of(arm, "travel", None, space.free)
+    metric = Metric.of(arm, "travel", None, space.free)
     assert routes.find_route(space, metric, ends[0], ends[1:], tries, np.random.default_rng(0)) is None
     assert rounds == [None] * made

@@ -18,6 +18,7 @@ from holdfast.arm.task import Task, as_task, rows_task
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
+from holdfast.keep.kept import Kept, upright
 from holdfast.paths.path import Path, line, sequence
 from holdfast.recovery.rows import row_solver
 
@@ -26,6 +27,7 @@ Rng = np.random.Generator
 
 _DRAWS = 4000  # configurations drawn before a case counts as impossible to draw
 _LANES, _LANE, _APART = 3, 0.2, 0.04  # of wiping: lanes, and m of each and between two
+_LEANS = np.deg2rad(2)  # by which the tool may lean where it is kept upright
 _KINDS = ("lock", "range", "speed")
 _OFTEN = (0.5, 0.3, 0.2)  # how often each is drawn
 
@@ -41,6 +43,7 @@ class Case:
         rows: Of the end effector's pose that matter.
         goal: (4, 4) pose to be reached, world, m; None if a path is to be followed.
         path: To be followed; None if a pose is to be reached.
+        keep: What must be kept along the whole motion.
     """
 
     task: str
@@ -50,6 +53,7 @@ class Case:
     rows: Task
     goal: Array | None = None
     path: Path | None = None
+    keep: tuple[Kept, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON data: everything that defines it."""
@@ -64,6 +68,7 @@ class Case:
             "rows": self.rows.to_dict(),
             "goal": None if self.goal is None else self.goal.tolist(),
             "path": corners,
+            **({"keep": [kept.to_dict() for kept in self.keep]} if self.keep else {}),
         }
 
 
@@ -210,6 +215,16 @@ def _tray(draw: Draw, task: str, rng: Rng) -> Case:
     return Case(task, degraded, at, rows=as_task(draw.arm, "pointing"), path=line(here, _moved(here, way)))
 
 
+@_again
+def _upright(draw: Draw, task: str, rng: Rng) -> Case:
+    """From one configuration with the tool straight down to the pose of another; it leans by 2 deg at most on the way."""
+    degraded = draw_failure(draw.arm, 2, rng)
+    at, there = (draw.pointing_down(*_limits(degraded), rng) for _ in range(2))
+    goal = draw.arm.forward_kinematics(there)
+    keep = upright(_LEANS).anchored(draw.arm.forward_kinematics(at))
+    return Case(task, degraded, at, rows=as_task(draw.arm, "pose"), goal=goal, keep=(keep,))
+
+
 def _moved(pose: Array, way: Array) -> Array:
     moved = pose.copy()
     moved[:3, 3] += way
@@ -227,4 +242,5 @@ TASKS: dict[str, Callable[[Draw, str, Rng], Case]] = {
     "drawer": _line,
     "wipe": _wipe,
     "tray": _tray,
+    "upright": _upright,
 }

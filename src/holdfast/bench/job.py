@@ -25,7 +25,7 @@ from holdfast.studies.jobs.process import PlannedJob
 
 Rows = dict[str, NDArray[Any]]
 VERDICTS: tuple[Answer, ...] = ("solved", "proved infeasible", "argued infeasible", "undecided")
-TROUBLES = ("", "none", "start", "lock", "limits", "goal", "path", "contact")
+TROUBLES = ("", "none", "start", "lock", "limits", "goal", "path", "contact", "kept")
 
 
 def digest(case: Case) -> int:

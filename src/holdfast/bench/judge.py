@@ -39,7 +39,7 @@ def trouble(case: Case, motion: Motion | None, clearance: Clearance | None) -> s
     """Why the motion does not do the case, in a word; nothing if it does.
 
     Looked at every 2 mrad or 2 mm of a joint: rows within 1 mm and 0.5 deg (of the goal, or of the path at every instant),
-    limits, locks and start exact, and clear by the exact sign.
+    what is kept all the way, limits, locks and start exact, and clear by the exact sign.
 
     Raises:
         HoldfastError: The extra ``cell`` is not installed, which the exact sign needs.
@@ -56,6 +56,10 @@ def trouble(case: Case, motion: Motion | None, clearance: Clearance | None) -> s
     if ((q < degraded.lo - _ROUND) | (q > degraded.hi + _ROUND))[:, moves].any():
         return "limits"
     poses = arm.forward_kinematics(q)
+    for kept in case.keep:
+        away, turned = kept.off(poses)
+        if (away > kept.within[0] + _ROUND).any() or (turned > kept.widest + _ROUND).any():
+            return "kept"
     if case.goal is not None and not _met(case, poses[-1:], case.goal[None])[0]:
         return "goal"
     if case.path is not None:

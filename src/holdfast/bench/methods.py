@@ -17,9 +17,10 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError
 from holdfast.paths.path import line
 from holdfast.recovery.goals import configurations_of
-from holdfast.recovery.routes import Metric, Space, find_route
+from holdfast.recovery.routes import find_route
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.search import recover
+from holdfast.recovery.space import Metric, Space
 from holdfast.recovery.verdict import Answer
 
 Array = NDArray[np.float64]
@@ -78,6 +79,7 @@ def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) ->
         goal=case.goal,
         task=case.rows,
         path=case.path,
+        keep=case.keep,
         clearance=False if clearance is None else clearance,
         samples=0,
         starts=STARTS,

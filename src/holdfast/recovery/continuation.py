@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
 from holdfast.notice import each
-from holdfast.recovery.goals import RowsGivenUp, configurations_of
-from holdfast.recovery.routes import Metric, Space
+from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too
 from holdfast.recovery.rows import RowSolver, preferred, subsets
+from holdfast.recovery.space import Metric, Space
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
@@ -134,7 +134,7 @@ def _samples(path: Path) -> Array:
 def _reached(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> bool:
     begin = np.concatenate([at[None], solver.starts(15, at, space.free, rng)])
     poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
-    q = solver.run(begin, poses, kept, space.free)
+    q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
     good = solver.meets(q, poses, kept, space.free)
     return bool(good.any() and space.clear(q[good]).any())
 
@@ -154,6 +154,7 @@ def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: 
         far = np.abs(after - before).max(axis=1) > _JUMP
         if far.any():  # rows that are given up must not pull the others onto another branch
             after[far] = solver.run(before[far], target[far], kept[alive][far], space.free)
+        after = kept_too(solver, space, after, target, kept[alive])
         good = solver.meets(after, target, kept[alive], space.free) & (np.abs(after - before).max(axis=1) <= _JUMP)
         some = np.flatnonzero(good)
         good[some] = space.edges(before[some], after[some])
@@ -177,6 +178,7 @@ def _without(
         row[list(sets[k])] = 0.0
     target = np.repeat(poses[:1], len(owner), axis=0)
     first = solver.nearest(np.tile(begin, (len(sets), 1)), target, kept, space.free)
+    first = kept_too(solver, space, first, target, kept)
     good = solver.meets(first, target, kept, space.free)
     good[good] = space.clear(first[good])
     q, last = _tracked(solver, space, poses, first[good], kept[good])

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.notice import each
-from holdfast.recovery.routes import Metric, Space
 from holdfast.recovery.rows import RowSolver, preferred, subsets
+from holdfast.recovery.space import Metric, Space
 from holdfast.solvers.descent import descend
 
 Array = NDArray[np.float64]
@@ -64,13 +64,14 @@ def configurations_of(
     begin = np.concatenate([at[None], solver.starts(starts, at, space.free, rng)])
     poses = np.repeat(pose[None], len(begin), axis=0)
     kept = np.ones((len(begin), solver.rows.m))
-    q = solver.run(begin, poses, kept, space.free)
+    q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
     q = q[_good(solver, space, q, poses, kept)]
     q = at + space.difference(q, at)
     moving = np.arange(len(q))
     for _ in range(_SLIDES):
         some = q[moving]
         trial = solver.run(some + 0.3 * space.difference(at, some), poses[moving], kept[moving], space.free, 20)
+        trial = kept_too(solver, space, trial, poses[moving], kept[moving])
         nearer = metric.length(trial - at) < metric.length(some - at) * (1 - 1e-6)
         nearer &= _good(solver, space, trial, poses[moving], kept[moving])
         q[moving[nearer]] = trial[nearer]
@@ -78,6 +79,21 @@ def configurations_of(
         if not moving.size:
             break
     return _distinct(q[np.argsort(metric.length(q - at), kind="stable")])
+
+
+def kept_too(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> Array:
+    """From q (N, n): rows of a goal with weights kept (N, m) above 0 are met, and with them what is kept all the way."""
+    some = np.zeros(0, dtype=np.intp) if space.manifold is None else np.flatnonzero(~space.manifold.holds(q))
+    if space.manifold is None or not some.size:
+        return q
+
+    def more(x: Array, which: NDArray[np.intp]) -> tuple[Array, Array]:
+        on, pose = kept[some[which]] > 0, poses[some[which]]
+        return solver.errors(x, pose) * on, -solver.slopes(x, pose) * on[:, :, None]
+
+    q = q.copy()
+    q[some] = space.manifold.projected(q[some], more)
+    return q
 
 
 def what_bars(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> str:
@@ -122,6 +138,7 @@ def rows_to_give_up(
             one[list(given_up)] = 0.0
         poses = np.repeat(pose[None], len(owner), axis=0)
         q = solver.nearest(np.tile(begin, (len(sets), 1)), poses, kept[owner], space.free)
+        q = kept_too(solver, space, q, poses, kept[owner])
         good = _good(solver, space, q, poses, kept[owner])
         missed = np.linalg.norm(solver.errors(q, poses), axis=1)
         for k, given_up in enumerate(each("sets of rows", sets)):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,14 +16,20 @@ from holdfast.arm.tree import listed
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
+from holdfast.keep.kept import Kept
+from holdfast.keep.labels import by_label
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.recovery import Ending
+from holdfast.recovery.rows import Rows
 from holdfast.solvers import joint_space
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
+
+KeepLike = Kept | str | Sequence[Kept | str]
+"""What is kept along a whole motion, or its label, or several."""
 
 SAME = 1e-6  # rad and m: a joint this near to its angle is there
 
@@ -120,7 +126,51 @@ def goal_of(
     return Goal(text, poses, None, rows)
 
 
-def trouble_of(degraded: Degraded, at: Array, clearance: Clearance | None, margin: float) -> tuple[Ending, str] | None:
+def keep_of(keep: KeepLike | None, start: Array) -> tuple[Kept, ...]:
+    """What is kept, through the tool's pose (4, 4) at the start.
+
+    Raises:
+        InputError: Something that is neither a :class:`holdfast.keep.Kept` nor its label.
+    """
+    given = [] if keep is None else [keep] if isinstance(keep, str | Kept) else list(keep)
+    made = [by_label(one) if isinstance(one, str) else one for one in given]
+    for one in made:
+        if not isinstance(one, Kept):
+            raise InputError(
+                f"keep holds {one!r}; give what hf.keep.upright, rail or plane make, or a label such as 'upright:0.1'"
+            )
+    return tuple(one.anchored(start) for one in made)
+
+
+def broken_by(keep: Sequence[Kept], rows: Rows | None, pose: Array) -> str:
+    """Which row kept all the way is broken by whatever meets a goal pose (4, 4), a sentence; empty if none is proved to be.
+
+    Args:
+        keep: What is kept, anchored.
+        rows: Of the goal; None: a configuration, which means its pose.
+        pose: Of the goal.
+    """
+    placed = turned = True  # of a configuration
+    if rows is not None:
+        linear, angular = (np.abs(rows.matrix[:, part]).max(axis=1) > 0 for part in (slice(3), slice(3, 6)))
+        placed = int(np.linalg.matrix_rank(rows.matrix[linear & ~angular])) == 3
+        turned = int(np.linalg.matrix_rank(rows.matrix[angular & ~linear])) == 3
+    for one in keep:
+        known = replace(
+            one,
+            normals=one.normals if placed else one.normals[:0],
+            direction=one.direction if turned else None,
+            turned=one.turned and turned,
+        )
+        trouble = known.trouble(pose)
+        if trouble:
+            return f"what is kept all the way is broken there: {trouble} ({one})"
+    return ""
+
+
+def trouble_of(
+    degraded: Degraded, at: Array, clearance: Clearance | None, margin: float, keep: Sequence[Kept] = ()
+) -> tuple[Ending, str] | None:
     """Why the arm may not even start, or None."""
     arm, value = degraded.arm, degraded.lo
     for k in np.flatnonzero(~degraded.moves & (np.abs(at - value) > SAME)):
@@ -139,4 +189,9 @@ def trouble_of(degraded: Degraded, at: Array, clearance: Clearance | None, margi
         own = int(clearance.closest_pair(at)) < len(clearance.pairs)
         advice = "or no clearance" if own else "or move the object"
         return Ending.START_TOO_CLOSE, f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, {advice}"
+    start = arm.forward_kinematics(at)
+    for one in keep:
+        trouble = one.trouble(start)
+        if trouble:
+            return Ending.START_BREAKS_ROWS, f"the tool is {trouble} where the arm is; what is kept is {one}"
     return None

@@ -17,10 +17,11 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.sharper import Sharper
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.failures import Degraded
+from holdfast.keep.kept import Kept
 from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
-from holdfast.recovery.routes import MetricName
+from holdfast.recovery.space import MetricName
 from holdfast.recovery.verdict import ProofKind, Verdict
 from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
@@ -45,6 +46,7 @@ class Ending(IntEnum):
     START_OUTSIDE_LIMITS = 6
     START_TOO_CLOSE = 7
     LOCK_ELSEWHERE = 8
+    START_BREAKS_ROWS = 9
 
     @property
     def phrase(self) -> str:
@@ -69,6 +71,7 @@ _SENTENCES = {
     Ending.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
     Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself or its cell than the clearance that must be kept",
     Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
+    Ending.START_BREAKS_ROWS: "no motion: where the arm is breaks a row that must be kept all the way",
 }
 
 
@@ -111,6 +114,7 @@ class Recovery(Result):
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
         proof: Why not everything that was asked for can be done, if that is proved; else None.
         proof_kind: Of the proof; see :class:`holdfast.recovery.Verdict`.
+        closed_in: ``start`` or ``goal`` if what was searched from there along the rows kept could not grow any more.
         stopped: At which level the time limit was spent; empty if it was not.
         verified: What other code finds of the motion; None if there is none.
         left: What is left of the workspace, if asked for.
@@ -122,6 +126,7 @@ class Recovery(Result):
         clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None. With a cell it is
             the bound, or where that leaves less exact distances.
         margin: m.
+        keep: What is kept along the whole motion.
         seed: The same seed gives the same result.
     """
 
@@ -138,6 +143,7 @@ class Recovery(Result):
     choices: tuple[RowsGivenUp, ...] = ()
     proof: str | None = None
     proof_kind: ProofKind | Literal[""] = ""
+    closed_in: Literal["", "start", "goal"] = ""
     stopped: str = ""
     verified: Verification | None = None
     left: WhatIsLeft | None = None
@@ -148,6 +154,7 @@ class Recovery(Result):
     unit: str
     clearance: Clearance | None
     margin: float
+    keep: tuple[Kept, ...] = ()
     seed: int
 
     @property
@@ -177,10 +184,16 @@ class Recovery(Result):
             if self.verified is None or self.verified.ok:
                 return Verdict("solved")
             return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
-        if self.ending in (Ending.START_OUTSIDE_LIMITS, Ending.START_TOO_CLOSE, Ending.LOCK_ELSEWHERE):
+        if self.ending >= Ending.START_OUTSIDE_LIMITS:
             return Verdict("proved infeasible", self.reason, "start")
         if self.proof_kind:
             return Verdict("proved infeasible", self.proof or "", self.proof_kind)
+        if self.closed_in:
+            there = "the goal" if self.closed_in == "start" else "the start"
+            return Verdict(
+                "argued infeasible",
+                f"searched along the rows kept, what the {self.closed_in} is joined to grows no more, without {there}",
+            )
         if self.stopped:
             return Verdict("undecided", f"the time limit was spent {self.stopped}")
         if self.ending == Ending.NO_ROUTE_FOUND or (self.rest is not None and self.rest.cut_off):
@@ -230,6 +243,7 @@ class Recovery(Result):
             f"{capitalised(self.ending.phrase)}: {self.ending.sentence}",
             f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.solved and self.verified is not None else ""),
         ]
+        lines += [f"kept all the way: {kept}" for kept in self.keep]
         if self.reason:
             lines.append(self.reason)
         if len(self.q) and isinstance(self.clearance, Sharper):

@@ -178,9 +178,10 @@ class RowSolver:
         return self._kernels.errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
 
     def slopes(self, q: Array, pose: Array) -> Array:
-        """Exact derivative (m, n) of :meth:`errors` at one q (n,) and pose (4, 4)."""
-        flat = self._kernels.slopes.rows(q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
-        return np.asarray(flat.reshape(self.rows.m, self.arm.n))
+        """Exact derivative (m, n) of :meth:`errors` at q (n,) and pose (4, 4), or (N, m, n) at (N, n) and (N, 4, 4)."""
+        poses = pose.reshape(-1, 4, 4)
+        flat = self._kernels.slopes.rows(np.atleast_2d(q), poses[:, :3, 3], poses[:, :3, :3])
+        return np.asarray(flat.reshape((*q.shape[:-1], self.rows.m, self.arm.n)))
 
     def run(self, q: Array, poses: Array, weights: Array, free: Flags, steps: int = _STEPS) -> Array:
         """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) locked."""

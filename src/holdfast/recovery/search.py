@@ -24,12 +24,13 @@ from holdfast.notice import says
 from holdfast.recovery.continuation import RestOfPath, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachable
-from holdfast.recovery.question import SAME, Goal, goal_of, task_of, trouble_of
+from holdfast.recovery.question import SAME, Goal, KeepLike, broken_by, goal_of, keep_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
-from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_route, in_vain
+from holdfast.recovery.routes import Route, find_route, in_vain
 from holdfast.recovery.rows import RowSolver, row_solver
 from holdfast.recovery.second_try import bolder
+from holdfast.recovery.space import Metric, MetricName, Space
 from holdfast.recovery.verification import Verification, verify
 from holdfast.regions.region import Region
 
@@ -55,6 +56,7 @@ def recover(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
+    keep: KeepLike | None = None,
     metric: MetricName = "travel",
     weights: ArrayLike | None = None,
     region: Region | None = None,
@@ -88,6 +90,8 @@ def recover(
             for that too; False: none.
         cell: Objects around the arm, or their file; every motion is proved clear of them, whatever ``clearance`` says.
         margin: m, smallest clearance; from an object beyond what the cell keeps from it.
+        keep: What the tool keeps along the whole motion: :func:`holdfast.keep.upright`, :func:`holdfast.keep.rail`,
+            :func:`holdfast.keep.plane`, a label of one (``"upright:10deg"``, see :func:`holdfast.keep.by_label`), or several.
         metric: Of the shortest route: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at the
             velocity limits).
         weights: (n,) of the joints in ``travel``; 1 if not given.
@@ -142,6 +146,7 @@ def recover(
         unit=length.unit,
         clearance=kept,
         margin=margin,
+        keep=keep_of(keep, arm.forward_kinematics(start)),
         seed=seed,
     )
     standing = np.where(free, start, degraded.lo)
@@ -154,10 +159,11 @@ def recover(
 
     def attempt(kept: Clearance | None) -> Recovery:
         asked = replace(made, clearance=kept)
-        trouble = trouble_of(degraded, start, kept, margin)
+        trouble = trouble_of(degraded, start, kept, margin, made.keep)
         if trouble is not None:
             return replace(asked, ending=trouble[0], reason=trouble[1])
-        space = Space(limited, free, kept, margin, np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])]))
+        around = np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])])
+        space = Space(limited, free, kept, margin, around, keep=made.keep)
         if time_limit is not None:
             space.stop_after(time_limit - (monotonic() - began))
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
@@ -213,6 +219,7 @@ class _Search:
             goals=None if aim is None or not whole else aim.poses,
             goal_q=None if aim is None or not whole else aim.q,
             along=along,
+            keep=ended.keep,
             clearance=ended.clearance,
             margin=ended.margin,
         )
@@ -254,11 +261,12 @@ class _Search:
     def _prove_of_path(self, share: Array, found: Flags, poses: Array, here: Array) -> None:
         """That one pose of the path cannot be met, if any can be proved to be so."""
         order = list(telling_first(len(poses)))
+        broken = ((k, broken_by(self.made.keep, self.solver.rows, poses[k]) or None) for k in order)
         tried = ((k, unreachable(self.solver, self.space.free, here, poses[k])) for k in order)
         hardest = [k for k in order if not found[k]][:_PROVED]
         made = self.made
         boxes = ((k, listed(made.degraded, made.task, poses[k], self.space.seconds_left)) for k in hardest)
-        for k, proof in chain(tried, ((k, proved_by(every, made.clearance)) for k, every in boxes)):
+        for k, proof in chain(broken, tried, ((k, proved_by(every, made.clearance)) for k, every in boxes)):
             if proof is not None:
                 at = f"at {100 * share[k]:.1f} % of the tool path {proof}"
                 self.made = replace(made, proof=at, proof_kind="a pose of the path")
@@ -270,6 +278,10 @@ class _Search:
     def _go(self, here: Array, aim: Goal) -> Recovery:
         """To the goal, or as near as it gets."""
         made = self.made
+        broken = [broken_by(made.keep, self.solver.rows if aim.q is None else None, pose) for pose in aim.poses]
+        if all(broken):
+            why = broken[0]
+            return replace(made, ending=Ending.PROVED_UNREACHABLE, proof=why, proof_kind="rows kept", reason=why)
         if aim.q is not None:
             goals, owner = aim.q[None], np.zeros(1, dtype=np.int64)
         else:
@@ -300,7 +312,8 @@ class _Search:
                 f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
                 f"{self._in_the_way(here, goals[0])}"
             )
-            return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason="; ".join(reasons))
+            why, closed_in = "; ".join(reasons), self.space.closed_in
+            return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
         boxes = [proved_by(found, made.clearance) for found in every]
         proofs = [bound or box for bound, box in zip(bounds, boxes, strict=True)]
@@ -332,7 +345,10 @@ class _Search:
 
     @property
     def _searches(self) -> str:
-        count = min(self.tries, in_vain(self.tries))
+        """How many there were, in words."""
+        if self.space.spent or self.space.closed_in:
+            return "the searches"
+        count = self.tries if self.space.manifold is not None else min(self.tries, in_vain(self.tries))
         return "1 search" if count == 1 else f"{count} searches"
 
     def _in_the_way(self, here: Array, goal: Array) -> str:

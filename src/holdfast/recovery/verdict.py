@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 Answer = Literal["solved", "proved infeasible", "argued infeasible", "undecided"]
-ProofKind = Literal["start", "limits", "reach bound", "boxes", "a pose of the path"]
+ProofKind = Literal["start", "limits", "reach bound", "boxes", "a pose of the path", "rows kept"]
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Verdict:
             proves nothing. ``undecided``: the search was spent, or what it found was not verified.
         why: The proof, what was searched, or at which level the search was spent; empty if solved.
         kind: Of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a pose
-            of the path``; empty if there is none.
+            of the path``, ``rows kept`` (all the way, which the goal itself breaks); empty if there is none.
     """
 
     answer: Answer

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from holdfast.recovery.waypoints import FIRST, check_waypoints, finely, paramete
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
+    from holdfast.keep.kept import Kept
     from holdfast.paths.path import Path
     from holdfast.recovery.rows import Rows
 
@@ -25,6 +27,7 @@ Array = NDArray[np.float64]
 AT_WAYPOINTS = 1e-5  # m of an arm of about 1 m, and rad
 BETWEEN = 1e-3, np.deg2rad(0.5)  # m and rad: between the waypoints along a tool path
 _INNER = 4  # places between two waypoints
+_ROUND = 1e-8  # m and rad, of rows kept all the way
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +40,8 @@ class Verification:
         exact_by: What said whether anything touches: the exact sign, or lower bounds of distances; empty if nobody looked.
         goal_miss: Of the rows of the goal at the end of the motion, the largest error, m and rad; None without a goal.
         path_miss: Of the rows along the tool path, the largest error between waypoints; None without one.
+        kept: Of each thing that is kept all the way, how far the tool point was off its line or plane, m, and how far it was
+            turned away from what is kept, rad, at most.
     """
 
     faults: tuple[str, ...]
@@ -44,6 +49,7 @@ class Verification:
     exact_by: str
     goal_miss: float | None
     path_miss: float | None
+    kept: tuple[tuple[float, float], ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -54,7 +60,8 @@ class Verification:
         if self.faults:
             return "refused by other code: " + "; ".join(self.faults)
         by = f", nothing touches by {self.exact_by}" if self.exact_by else ""
-        return f"verified by other code in {self.looked_at:,} configurations{by}"
+        rows = ", every row kept" * bool(self.kept)
+        return f"verified by other code in {self.looked_at:,} configurations{rows}{by}"
 
 
 def verify(
@@ -66,6 +73,7 @@ def verify(
     goals: Array | None = None,
     goal_q: Array | None = None,
     along: tuple[Path, Array, slice] | None = None,
+    keep: Sequence[Kept] = (),
     clearance: Clearance | None = None,
     margin: float = 0.0,
 ) -> Verification:
@@ -79,6 +87,7 @@ def verify(
         goals: (G, 4, 4) one of which must be met at the end.
         goal_q: (n,) the configuration that must be met at the end.
         along: A tool path, the places (S,) on it, 0 to 1, and which waypoints are there.
+        keep: What must be kept at every instant, through the pose at the start.
         clearance: Of which the motion must keep clear.
         margin: m.
     """
@@ -92,6 +101,13 @@ def verify(
     if replay.least_room is not None and replay.least_room < margin:
         faults.append(f"the room at {replay.closest} is {replay.least_room:.4g} m")
     faults += _too_fast(degraded, q)
+    kept = []
+    poses = tool_poses(arm, finely(q)) if keep else np.zeros((0, 4, 4))
+    for one in keep:
+        away, turned = (float(x.max()) for x in one.off(poses))
+        kept.append((away, turned))
+        if away > one.within[0] + _ROUND or turned > one.widest + _ROUND:
+            faults.append(f"{one.name} is not kept: off by {away:.3g} m, turned away by {np.rad2deg(turned):.4g} deg")
     exact_by = "" if clearance is None else "lower bounds of the distances"
     if clearance is not None and clearance.pair_names:
         try:
@@ -127,7 +143,12 @@ def verify(
             name = rows.names[int(beyond.any(axis=0).argmax())]
             faults.append(f"between waypoints {name} is off the tool path by {off[beyond].max():.3g} (m or rad)")
     return Verification(
-        faults=tuple(faults), looked_at=replay.looked_at, exact_by=exact_by, goal_miss=goal_miss, path_miss=path_miss
+        faults=tuple(faults),
+        looked_at=replay.looked_at,
+        exact_by=exact_by,
+        goal_miss=goal_miss,
+        path_miss=path_miss,
+        kept=tuple(kept),
     )
 
 

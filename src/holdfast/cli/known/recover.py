@@ -65,6 +65,15 @@ def command(
     path: Annotated[
         Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.", show_default=False)
     ] = None,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--keep",
+            help="upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
+            "May be given again.",
+            show_default=False,
+        ),
+    ] = None,
     degrees: Annotated[
         bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
     ] = False,
@@ -139,6 +148,7 @@ def command(
         path=hand_path,
         clearance=shape or False,
         margin=margin or 0.0,
+        keep=keep,
         metric=metric,  # type: ignore[arg-type]
         region=None if region is None else hf.Region.load(region),
         samples=samples,

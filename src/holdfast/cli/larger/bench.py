@@ -49,7 +49,7 @@ def fail_active(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, tray.
+    """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, tray, upright.
 
     Ctrl-C stops after the current cases; the same command resumes.
 

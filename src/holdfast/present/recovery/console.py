@@ -23,6 +23,7 @@ _ANSWERS = {
     Ending.START_OUTSIDE_LIMITS: "there is no motion: the arm is outside its limits",
     Ending.START_TOO_CLOSE: "there is no motion: the arm is already closer to itself or its cell than must be kept",
     Ending.LOCK_ELSEWHERE: "there is no motion: a joint is not where it is said to be locked",
+    Ending.START_BREAKS_ROWS: "there is no motion: where the arm is breaks a row that must be kept all the way",
 }
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
             "exact_by": recovery.verified.exact_by,
             "goal_miss": recovery.verified.goal_miss,
             "path_miss": recovery.verified.path_miss,
+            "kept": [{"off": off, "turned": turned} for off, turned in recovery.verified.kept],
         },
         "proof": recovery.proof,
         "goal_configurations_found": recovery.found,
@@ -73,6 +75,7 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         "waypoints": recovery.q,
         "check": recovery.check().to_dict() if len(recovery.q) else None,
         "clearance": None if recovery.clearance is None else shape_summary(recovery.clearance, recovery.margin),
+        "keep": [kept.to_dict() for kept in recovery.keep],
         "left": None if recovery.left is None else recovery.left.to_dict(),
         "rest_of_path": None
         if rest is None
@@ -162,6 +165,7 @@ def story(recovery: Recovery) -> Story:
                 "Shortest",
                 "in joint space, 1 m of a slide as 1 rad" if recovery.unit == "rad" else "in time, within the velocity limits",
             ),
+            *(("Kept all the way", str(kept)) for kept in recovery.keep),
             ("Verified", "there is no motion" if recovery.verified is None else str(recovery.verified)),
             ("Clearance", "not looked at" if recovery.clearance is None else shape_text(recovery.clearance, recovery.margin)),
         ],

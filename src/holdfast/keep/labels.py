@@ -1,0 +1,65 @@
+"""What is kept, written in one word: ``upright:10deg``, ``rail:1,0,0``, ``plane:0,0,1``."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from holdfast import registry
+from holdfast.arguments import checked
+from holdfast.errors import InputError
+from holdfast.grammar import is_number, split
+from holdfast.keep.kept import Kept, plane, rail, upright
+
+KINDS: dict[str, Callable[..., Kept]] = {"upright": upright, "rail": rail, "plane": plane}
+_UNITS = {"deg": np.pi / 180, "rad": 1.0, "mm": 1e-3, "m": 1.0}
+_WITH_UNIT = re.compile(r"(.*\d\.?)\s*(deg|rad|mm|m)")
+
+
+@checked
+def by_label(label: str) -> Kept:
+    """What a label says is kept: its kind, then the first value of the function of that name, or values by key.
+
+    Numbers are in rad and m, or have ``deg``, ``rad``, ``mm`` or ``m`` behind them: ``upright:10deg``,
+    ``upright:angle=5deg,axis=1,0,0``, ``rail:0,0,1``, ``rail:direction=0,0,1,frame=tool``,
+    ``plane:normal=0,0,1,angle=3deg,within=2mm,1deg``.
+
+    Raises:
+        InputError: It cannot be read, or a value is wrong; the sentence says which.
+    """
+    name, first, settings = split(label)
+    if name not in KINDS:
+        raise InputError(f"keep '{label}': {registry.unknown('kind', name, KINDS)}")
+    names = [key for key in inspect.signature(KINDS[name]).parameters if key != "pose"]
+    for key in settings:
+        if key not in names:
+            raise InputError(f"keep '{label}': {registry.unknown('setting', key, names)}")
+    if first is not None:
+        settings = {names[0]: first}
+    if names[0] not in settings:
+        raise InputError(f"keep '{label}' gives no {names[0]}; write for example {_EXAMPLES[name]}")
+    try:
+        return KINDS[name](**{key: _value(key, text) for key, text in settings.items()})
+    except InputError as error:
+        raise InputError(f"keep '{label}': {error}") from error
+
+
+_EXAMPLES = {"upright": "upright:10deg", "rail": "rail:0,0,1", "plane": "plane:0,0,1"}
+
+
+def _value(key: str, text: str) -> Any:
+    """A word, a number, or several, in rad and m."""
+    if key == "frame":
+        return text
+    found = []
+    for part in text.split(","):
+        whole = _WITH_UNIT.fullmatch(part.strip())
+        number, unit = whole.groups() if whole else (part.strip(), "m")
+        if not is_number(number):
+            raise InputError(f"{key} '{text}' is not a number; write numbers, in rad and m or as 10deg or 2mm")
+        found.append(float(number) * _UNITS[unit])
+    return found if len(found) > 1 else found[0]
