@@ -67,7 +67,7 @@ def story(choice: LawChoice) -> Story:
         answer += "."
     if first.touched is not None:
         some = choice.share(best, outcome="touched").value
-        answer += f" With {best} {percent(some) if some else 'none'} of the motions touch something on the way."
+        answer += f" With {best} {f'at most {percent(some)}' if some else 'none'} of the motions touch something on the way."
         facts += (
             [(percent(some), f"of the motions touch something at most, with {best}; a real arm would stop")] if some else []
         )
