@@ -336,7 +336,7 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         "95 % intervals. The gain is paired: both laws have the same motions. In reach: runs with a locked joint in which a "
         "configuration at the target exists."
     )
-    return [*blocks, Table(rows, head, frozenset({3, 4, 6, 7}), caption=caption, wide=True)]
+    return [*blocks, Table(rows, head, frozenset({3, 4, 6, 7, 8}), caption=caption, wide=True)]
 
 
 def _others(study: Study, job: str, read: Callable[[Study, int], results.Table | None], noun: str, unit: str) -> list[Block]:
