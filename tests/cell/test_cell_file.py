@@ -144,6 +144,7 @@ def test_files_that_changed_since_are_told(folder):
         ("sphere: 0.12", "sphere: 0.12, scale: 2", "scale is for mesh alone"),
         ("[0, 0.6, 0, 0.8]", "[0, 0, 0, 0]", r"objects\.pipe\.pose: the quaternion \(x, y, z, w\) has length 0; it must be 1"),
         ("[0, 0.6, 0, 0.8]", "[0, 0.6, 0, 1.8]", "it must be 1"),
+        ("[0, 0.6, 0, 0.8]", "[0, 1.0e+200, 0, 0.8]", r"has length 1e\+200; it must be 1"),
         ("half_space: [0, 1, 1]", "half_space: [0, 0, 0]", "the direction is 0"),
         ("rpy: [0, 0.1, 0]", "rpy: [0, 0.1, 0], quaternion: [0, 0, 0, 1]", "both rpy and quaternion"),
         ("jig.stl", "none.stl", r"object 'jig': 'none\.stl' cannot be read"),
@@ -197,6 +198,9 @@ def test_surfaces_without_an_inside():
         Mesh("jig", ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), solid="hull")
     with pytest.raises(hf.InputError, match="not there"):
         Mesh("jig", (shape.vertices[:5], shape.faces))
+    for strange in (-1, 0.5, 1e308, np.nan):
+        with pytest.raises(hf.InputError, match="not there"):
+            Mesh("jig", (shape.vertices, np.vstack([shape.faces, [0, 1, strange]])))
 
 
 def test_clouds_that_are_none():

@@ -29,6 +29,7 @@ numbers, a mesh ``{vertices: [...], faces: [...]}`` and points a list.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -205,7 +206,7 @@ def _pose(pose: list[list[float]] | _Placement | None, place: str) -> Array:
     if pose.rpy is not None:
         out[:3, :3] = rpy_rotation(pose.rpy)
     elif pose.quaternion is not None:
-        size = float(np.linalg.norm(pose.quaternion))
+        size = math.hypot(*pose.quaternion)
         if not abs(size - 1) < _UNIT:
             raise InputError(f"{place}.pose: the quaternion (x, y, z, w) has length {size:g}; it must be 1")
         out[:3, :3] = rotations_of_quaternions(pose.quaternion)
@@ -214,10 +215,11 @@ def _pose(pose: list[list[float]] | _Placement | None, place: str) -> Array:
 
 def _upright(normal: Array, place: str) -> Array:
     """(4, 4) rotation of z onto a direction."""
-    size = float(np.linalg.norm(normal))
-    if not size > 0:
+    largest = np.abs(normal).max()
+    if not largest > 0:
         raise InputError(f"{place}.half_space: the direction is 0, 0, 0; give the one that points out of it")
-    z, out = normal / size, np.eye(4)
+    z, out = normal / largest, np.eye(4)
+    z /= np.linalg.norm(z)
     if z[2] > 1 - 1e-15:
         return out
     x = np.cross(np.eye(3)[np.abs(z).argmin()], z)

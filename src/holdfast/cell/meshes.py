@@ -57,14 +57,15 @@ class Gridded(Solid):
 
     def signed_distance(self, points: ArrayLike) -> Array:
         """A lower bound of the distance in m of points (..., 3) in the world from its surface, below 0 inside."""
-        return self.field.distance(self._own(points))
+        return self.distance_and_gradient(points)[0]
 
     def distance_and_gradient(self, points: ArrayLike) -> tuple[Array, Array]:
         """The same bound (...,), m, and its gradient (..., 3) in the world, of points (..., 3) in the world."""
-        distance, gradient = self.field.distance_and_gradient(self._own(points))
+        distance, gradient = self.field.distance_and_gradient(self.own(points))
         return distance, gradient @ self.pose[:3, :3].T
 
-    def _own(self, points: ArrayLike) -> Array:
+    def own(self, points: ArrayLike) -> Array:
+        """Points (..., 3) in the world, m, in the object's own frame."""
         return np.asarray((np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3])
 
     def __getstate__(self) -> dict[str, Any]:

@@ -95,7 +95,7 @@ def triangles(corners: Array, longest: float) -> Parts:
 
     Each is looked at in a frame of its own: a in the origin, b on the first axis, c above it.
     """
-    corners = _cut(corners, longest)
+    corners = cut(corners, longest)
     a, b, c = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     long = np.linalg.norm(b, axis=1)
     first = _unit(b, np.array([1.0, 0.0, 0.0]))
@@ -139,7 +139,7 @@ def _unit(rows: Array, spare: Array) -> Array:
     )
 
 
-def _cut(corners: Array, longest: float) -> Array:
+def cut(corners: Array, longest: float) -> Array:
     """The same surface in triangles without an edge that is longer: each is cut in two at its longest edge."""
     done = []
     while len(corners):

@@ -112,10 +112,9 @@ class Box(Primitive):
         return (x, y, z), 0.0, False, False
 
 
-@checked_class
 @dataclass(frozen=True, eq=False)
-class Cylinder(Primitive):
-    """A cylinder along its own z with flat ends; ``radius`` and ``length`` in m, as in URDF."""
+class _Rod(Primitive):
+    """What is round along its own z; ``radius`` and ``length`` in m."""
 
     radius: float
     length: float
@@ -124,6 +123,12 @@ class Cylinder(Primitive):
         super().__post_init__()
         self._length(self.radius, "radius")
         self._length(self.length, "length")
+
+
+@checked_class
+@dataclass(frozen=True, eq=False)
+class Cylinder(_Rod):
+    """A cylinder along its own z with flat ends; ``radius`` and ``length`` in m, as in URDF."""
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
         """As every primitive has it."""
@@ -132,16 +137,8 @@ class Cylinder(Primitive):
 
 @checked_class
 @dataclass(frozen=True, eq=False)
-class Capsule(Primitive):
+class Capsule(_Rod):
     """A cylinder along its own z with round ends; ``length`` is between the centres of the ends, m."""
-
-    radius: float
-    length: float
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        self._length(self.radius, "radius")
-        self._length(self.length, "length")
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
         """As every primitive has it."""

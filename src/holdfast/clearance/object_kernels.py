@@ -8,7 +8,7 @@ the object grows with it; inside, the depth is what it is.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import reduce
+from functools import cache, reduce
 from itertools import groupby
 
 import casadi as ca
@@ -59,13 +59,8 @@ def nearest_kernel(arm: Machine, balls: Balls) -> Kernel:
     numbers = ca.horzsplit(objects[0, :NUMBERS])
     for other in range(1, BLOCK):
         numbers = _chosen(k == other, ca.horzsplit(objects[other, :NUMBERS]), numbers)
-    push = _outward(ca.horzcat(*numbers), point)
-    c = kinematics.chain(arm, q)
     link = sum(ca.if_else(at == i, int(link), 0) for i, link in enumerate(_links(balls)))
-    slopes = []
-    for j, joint in enumerate(arm.joints):
-        way = c.axes[j] if joint.prismatic else ca.cross(c.axes[j], ca.vertcat(*point) - c.points[j])
-        slopes.append(ca.if_else(link >= j, sum(way[i] * push[i] for i in range(3)), 0.0))
+    slopes = slopes_of(arm, q, link, point, _outward(ca.horzcat(*numbers), point))
     return Kernel("nearest object of a block", [q, objects], [ca.vertcat(distance, at, k, *slopes)])
 
 
@@ -75,13 +70,36 @@ def _links(balls: Balls) -> NDArray[np.int64]:
 
 def _symbols(arm: Machine, balls: Balls) -> tuple[SX, SX, list[Vector]]:
     """Joint variables (n,), the block's numbers (BLOCK, 18 + L), and where each moving sphere is, (3,) in the world."""
+    q, where = sphere_centres(arm, balls)
+    return q, ca.SX.sym("objects", BLOCK, NUMBERS + len(_links(balls))), where
+
+
+def sphere_centres(arm: Machine, balls: Balls) -> tuple[SX, list[Vector]]:
+    """Joint variables (n,), and where the centre of each moving sphere is, (3,) in the world, m."""
     q = kinematics.joint_symbols(arm)
     moving, _ = kinematics.frames(arm, kinematics.joint_steps(arm, q))
     where = []
     for s in np.flatnonzero(balls.link > BASE):
         rotation, position = moving[balls.link[s] + 1]
         where.append(ca.vertsplit(position + rotation @ kinematics.constant(balls.centre[s])))
-    return q, ca.SX.sym("objects", BLOCK, NUMBERS + len(_links(balls))), where
+    return q, where
+
+
+def slopes_of(arm: Machine, q: SX, link: SX, point: Sequence[SX], push: Sequence[SX]) -> Vector:
+    """How fast a point (3,) on a link goes along a direction (3,), per unit of each joint's speed, of joint variables (n,)."""
+    c = kinematics.chain(arm, q)
+    slopes = []
+    for j, joint in enumerate(arm.joints):
+        way = c.axes[j] if joint.prismatic else ca.cross(c.axes[j], ca.vertcat(*point) - c.points[j])
+        slopes.append(ca.if_else(link >= j, sum(way[i] * push[i] for i in range(3)), 0.0))
+    return slopes
+
+
+@cache
+def outward_kernel() -> Kernel:
+    """The gradient (3,) in the world of the signed distance at a point (3,), of an object's numbers (18,)."""
+    point, numbers = ca.SX.sym("point", 3), ca.SX.sym("numbers", NUMBERS)
+    return Kernel("direction away from an object", [point, numbers], [ca.vertcat(*_outward(numbers, ca.vertsplit(point)))])
 
 
 def _by_link(balls: Balls, where: list[Vector], numbers: SX) -> list[tuple[SX, Vector]]:

@@ -21,7 +21,7 @@ from holdfast.cell.solids import Primitive, Solid
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
+from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects, outward_kernel
 from holdfast.clearance.objects.end_links import EndLinks
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
@@ -29,8 +29,6 @@ from holdfast.kernels.kernel import Single
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-_STEP = 1e-6  # m: for the direction away from an object
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -185,13 +183,13 @@ class Obstacles:
         """(N,) the least distance beyond what each pair keeps, m."""
         room = self._formulas.room(q)
         if self._gridded is not None:
-            room = np.minimum(room, (self._gridded.distances(q) - self._own_margins[self._grids]).min(axis=(1, 2)))
+            room = np.minimum(room, self._gridded.least(q, self._own_margins[self._grids]))
         return room
 
     def least(self, q: Array) -> Array:
         """(N,) the least distance, m."""
         least = self._formulas.least(q)
-        return least if self._gridded is None else np.minimum(least, self._gridded.distances(q).min(axis=(1, 2)))
+        return least if self._gridded is None else np.minimum(least, self._gridded.least(q, np.zeros(len(self._grids))))
 
     def distances(self, q: Array) -> Array:
         """(N, L K) lower bound of the distance of every pair, m; about 1e9 m where a pair may touch."""
@@ -219,8 +217,10 @@ class Obstacles:
         away = solid.signed_distance(centres)
         ball = int((away - self.balls.radius[some]).argmin())
         point = centres[ball]
-        around = point + _STEP * np.concatenate([np.eye(3), -np.eye(3)])
-        rise = np.subtract(*np.split(solid.signed_distance(around), 2))
+        if isinstance(solid, Primitive):
+            rise = outward_kernel()(point, solid.numbers())
+        else:
+            rise = solid.distance_and_gradient(point)[1]
         outward = rise / max(float(np.linalg.norm(rise)), 1e-300)
         return Gap(
             pair=int(pair),

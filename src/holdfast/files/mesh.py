@@ -150,10 +150,9 @@ def triangles(vertices: ArrayLike, faces: ArrayLike, what: str) -> Triangles:
         raise InputError(f"{what} has no triangles; give vertices (V, 3) and faces (F, 3)")
     if not np.isfinite(points).all():
         raise InputError(f"{what} holds NaN or infinity; all its vertices must be finite")
-    numbers = corners.astype(np.int64)
-    if (numbers != corners).any() or numbers.min() < 0 or numbers.max() >= len(points):
+    if not ((corners >= 0) & (corners < len(points)) & (corners == np.floor(corners))).all():
         raise InputError(f"{what} is damaged: a face names a vertex that is not there; write it anew")
-    used, where = _once(points[numbers.ravel()] + 0.0)
+    used, where = _once(points[corners.astype(np.int64).ravel()] + 0.0)
     sound = where.reshape(-1, 3)
     sound = sound[(sound != np.roll(sound, 1, axis=1)).all(axis=1)]
     if not len(sound):
