@@ -39,8 +39,10 @@ def pytest_addoption(parser):
 def pytest_configure(config):
     # Workers of pytest-xdist inherit the folder and share what is compiled; only the process that made it removes it.
     if not hasattr(config, "workerinput"):
-        folder = tempfile.mkdtemp(prefix="holdfast-tests-")
-        _MADE.append(folder)
+        folder = os.environ.get("HOLDFAST_TESTS_CACHE")
+        if not folder:
+            folder = tempfile.mkdtemp(prefix="holdfast-tests-")
+            _MADE.append(folder)
         os.environ["HOLDFAST_CACHE"] = folder
     config.addinivalue_line("markers", "interpreted: kernels made in the test run on CasADi's machine; for arms of its own.")
     # Node is installed beside Python, whether or not the environment was activated.

@@ -365,7 +365,6 @@ CALLS = {
 }
 
 
-@pytest.mark.interpreted
 @pytest.mark.parametrize("what", CALLS)
 def test_what_is_named_is_what_was_asked_for(what, clock, monkeypatch):
     names = []
@@ -390,7 +389,6 @@ class Running(Clock):
         return self.now
 
 
-@pytest.mark.interpreted
 @pytest.mark.parametrize("what", CALLS)
 def test_long_work_says_how_long_or_how_far(what, clock, said, monkeypatch):
     """Everything that takes long says something from which a person can tell whether to wait."""

@@ -23,8 +23,6 @@ from holdfast.solvers import solve_ik
 # A power of two rounds nothing: such a copy does the same to the last bit. The others are 1 mm and 1 km exactly.
 EXACT, ROUNDED = [2.0**-10, 2.0**10], [1e-3, 1e3]
 
-pytestmark = pytest.mark.interpreted
-
 
 def scaled(arm, size):
     """A copy of an arm of turning joints."""
@@ -113,6 +111,7 @@ def planar(arm, size):
     return as_task(arm, "planar", length=size)
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
 def test_cycles_and_the_least_error(links, rng, size):
     q0, x = rng.uniform(-2, 2, (6, 3)), rng.uniform(-4, 4, (6, 2))

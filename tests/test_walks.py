@@ -56,7 +56,7 @@ def write(folder, where, text):
 def run(tmp_path):
     """A call of a module in a copy of sources and tests: its exit code, and what it said."""
     for part in ("src", "tests"):
-        shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+        shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("*.egg-info"))  # compiled files too
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     python = f"{tmp_path / 'src'}{os.pathsep}{tmp_path / 'tests'}"
     environment = {**os.environ, "PYTHONPATH": python, "HOLDFAST_BACKEND": "casadi", "NO_COLOR": "1", "COLUMNS": "200"}
@@ -70,59 +70,46 @@ def run(tmp_path):
     return call
 
 
-@pytest.mark.parametrize("walk", WALKS)
-def test_the_walk(walk, run, tmp_path):
-    anchor, name, command, said, kind = WALKS[walk]
+def test_all_walks_in_one_copy(run, tmp_path):
+    """Two starts of pytest: what is missing is named, and what is complete is known everywhere."""
 
-    def tests(*chosen, files=()):
-        words = ["pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "tests/test_registry.py", *files]
-        return run(*words, "-k", " or ".join(chosen))
+    def tests(*files, asked):
+        code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *files, "-k", " or ".join(asked))
+        return code, told
 
-    file, oracle, line = steps(anchor)
-    write(tmp_path, *file)
-    write(tmp_path, *line)
-    code, told = tests("has_an_oracle")
+    walks = {name: steps(anchor) for anchor, name, *_ in WALKS.values()}
+    for file, _, line in walks.values():
+        write(tmp_path, *file)
+        write(tmp_path, *line)
+    command_file, command_line, command_test = steps("add-a-command")
+    write(tmp_path, *command_file)
+    registry, imports = "tests/test_registry.py", "tests/cli/test_imports.py"
+    code, told = tests(registry, imports, asked=["has_an_oracle", "in_the_table"])
     assert code == 1
-    assert f"{kind} '{name}' has no oracle: add its value by another route to ORACLES['{kind}'] in tests/oracles.py" in told
-    write(tmp_path, *oracle)
-    # One start of pytest for what the registry asks, and for the values.
-    values = {"index": ("tests/indices/test_index_values.py", "tests/indices/test_index_gradients.py")}
-    files = values.get(kind, ("tests/control/test_laws.py",))
-    asked = "against_singular_values and (planar or rows)" if kind == "index" else "test_laws and rates"
-    code, told = tests(name, "oracles_are_of", "what_is_registered", asked, files=files)
-    assert code == 0, told
-    code, told = run("holdfast", *command)
-    assert code == 0, told
-    assert said in told
-    code, told = run("holdfast", command[0], "--help")
-    assert name in told
+    for _, name, _, _, kind in WALKS.values():
+        assert f"{kind} '{name}' has no oracle: add its value by another route to ORACLES['{kind}'] in tests/oracles.py" in told
+    assert "no line of COMMANDS in src/holdfast/cli/program.py names before.price" in told
 
-
-def test_the_walk_to_a_section_of_the_report(run, tmp_path):
-    file, line, test = steps("add-a-report-section")
-    for step in (file, line, test):
+    for _, oracle, _ in walks.values():
+        write(tmp_path, *oracle)
+    section = steps("add-a-report-section")
+    for step in (command_line, command_test, *section):
         write(tmp_path, *step)
-    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", test[0])
+    values = ["tests/indices/test_index_values.py", "tests/indices/test_index_gradients.py", "tests/control/test_laws.py"]
+    commands = ["tests/cli/test_examples.py", "tests/cli/test_price_command.py"]
+    rows = ["against_singular_values and (planar or rows)", "test_laws and rates"]
+    asked = [*walks, "oracles_are_of", "what_is_registered", "price", "in_the_table", "lists_every_command", *rows]
+    code, told = tests(registry, imports, *values, *commands, section[2][0], asked=[*asked, Path(section[2][0]).stem])
     assert code == 0, told
+
+    for _, name, words, said, _ in WALKS.values():
+        code, told = run("holdfast", *words)
+        assert code == 0, told
+        assert said in told
+        assert name in run("holdfast", words[0], "--help")[1]
     code, told = run("holdfast", "assess", "panda", "--task", "position", "--poses", "9", "--out", "results")
     assert code == 0, told
     assert "How near the joints are to their limits" in (tmp_path / "results/report.html").read_text(encoding="utf-8")
-
-
-def test_the_walk_of_a_command(run, tmp_path):
-    def tests(*chosen):
-        return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen)
-
-    file, line, test = steps("add-a-command")
-    write(tmp_path, *file)
-    code, told = tests("tests/cli/test_imports.py", "-k", "in_the_table")
-    assert code == 1
-    assert "no line of COMMANDS in src/holdfast/cli/program.py names before.price" in told
-    write(tmp_path, *line)
-    write(tmp_path, *test)
-    chosen = ["tests/cli/test_imports.py", "tests/cli/test_examples.py", "tests/cli/test_price_command.py"]
-    code, told = tests(*chosen, "-k", "price or in_the_table or lists_every_command")
-    assert code == 0, told
     code, told = run("holdfast", "price", "planar-3r", "--error", "0.2")
     assert code == 0, told
     assert "pseudoinverse" in told

@@ -153,11 +153,11 @@ def bench(tmp_path):
 
 
 def test_assess_and_optimise_keep_clear_of_a_cell(cli, ask, close, bench):
-    common = ("assess", "planar-3r", "--region", close, "--poses", 100, "--after-lock", "--cell", bench, "--no-clearance")
+    common = ("assess", "planar-3r", "--region", close, "--poses", 40, "--after-lock", "--cell", bench, "--no-clearance")
     data = ask(*common, "--radius", 0.02)["clearance"]
     arm, cell = arms.load("planar-3r"), hf.Cell.load(bench)
     slim = Clearance(arm, Capsules.along(arm, 0.02), cell, itself=False)
-    run = hf.assess(arm, hf.Region.load(close), task="planar", poses=100, after_lock=True, clearance=slim)
+    run = hf.assess(arm, hf.Region.load(close), task="planar", poses=40, after_lock=True, clearance=slim)
     assert data["found_with"] == run.collisions.with_each == {"post": run.collisions.found, "far": 0}
     assert data["reached_clear"]["value"] == run.reached_clear().value
     assert data["best_barred_by"] is None

@@ -92,7 +92,6 @@ def test_a_command_imports_what_it_uses(arguments, heavy, monkeypatch):
 
 @pytest.mark.parametrize(("arguments", "heavy"), RICHER, ids=label)
 def test_a_command_that_needs_more_imports_no_more_than_that(arguments, heavy, monkeypatch, tmp_path):
-    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     loads_only(modules(*arguments, cwd=tmp_path), heavy)
 
 
@@ -104,7 +103,6 @@ timing: {duration: 1}
 
 
 def test_a_motion_is_drawn_without_matplotlib(tmp_path, monkeypatch):
-    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     (tmp_path / "path.yaml").write_text(PATH)
     follow = ["follow", "planar-3r", "path.yaml", "--task", "planar", "--minimise", "torque", "--samples", "11", "--out", "m"]
     loads_only(modules(*follow, cwd=tmp_path), FILES | {"jinja2"})
@@ -112,7 +110,6 @@ def test_a_motion_is_drawn_without_matplotlib(tmp_path, monkeypatch):
 
 
 def test_a_report_is_written_without_what_its_numbers_do_not_need(tmp_path, monkeypatch):
-    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     modules("assess", "planar-3r", "--poses", "20", "--seed", "1", "--out", "r", cwd=tmp_path)
     (tmp_path / "r" / "report.html").unlink()
     found = modules("report", "r", cwd=tmp_path)

@@ -27,7 +27,7 @@ def test_a_changed_bit_of_data_is_found(experiment, tmp_path, rng, cli):
     rounds = itertools.count()
 
     def read():
-        if next(rounds) % 16 == 0:  # each takes a quarter of a second
+        if next(rounds) % 40 == 0:  # each takes a quarter of a second
             assert cli("teleop", "verify", tmp_path / "copy")[0] == 3
             code, _, err = cli("teleop", "subjects", tmp_path / "copy")
             assert code == 0 or err.startswith("holdfast: ")

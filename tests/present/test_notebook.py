@@ -14,7 +14,6 @@ from cards import Card, check_card
 from holdfast.errors import InputError
 from holdfast.present import PRESENTERS
 
-pytestmark = pytest.mark.interpreted
 X, TARGET = np.array([0.3, 0.5, 0.7]), [1.5, 1.5]
 
 

@@ -332,7 +332,6 @@ def spatial(arm, task, q0, target, joint):
     return found, np.linalg.norm(error(found.y[:, -1])), not found.t_events[1].size and turned < 3.0
 
 
-@pytest.mark.interpreted
 @pytest.mark.parametrize(("joints", "task"), [(4, ["vx", "vy", "vz"]), (5, ["vx", "vy", "vz"]), (7, list(oracles.ROWS))])
 def test_the_outcome_does_not_depend_on_tolerance(rng, joints, task):
     """Random arms in space; what scipy says of them is neither ours nor at any of these tolerances."""

@@ -20,6 +20,7 @@ from holdfast.kernels import llvm_backend
 
 _MAGIC = b"holdfast kernel 1\n"
 _LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
+_written: dict[Path, int] = {}  # bytes that this process added to each folder since it last looked at all of it
 _TRANSLATION = ("llvm_ir.py", "llvm_backend.py", "llvm_arithmetic.py")  # a kernel made by other code is another kernel
 
 
@@ -93,7 +94,11 @@ def store(name: str, body: bytes) -> None:
             Path(temporary).replace(path / name)
         except OSError:
             Path(temporary).unlink()
-        _trim(path)
+        # To look at thousands of files takes longer than to write one.
+        _written[path] = _written.get(path, _LARGEST_FOLDER) + len(body)
+        if _written[path] > _LARGEST_FOLDER >> 5:
+            _written[path] = 0
+            _trim(path)
 
 
 def _trim(path: Path) -> None:

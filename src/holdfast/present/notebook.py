@@ -88,7 +88,7 @@ def png(figure: Figure) -> tuple[bytes, dict[str, Any]]:
     data, before = io.BytesIO(), figure.dpi
     with style():
         figure.dpi = _SHARPER * _INCH
-        FigureCanvasAgg(figure).print_png(data)  # type: ignore[no-untyped-call]
+        FigureCanvasAgg(figure).print_png(data)
         figure.dpi = before
     width, height = figure.get_size_inches()
     return data.getvalue(), {"width": float(_INCH * width), "height": float(_INCH * height)}

@@ -111,7 +111,7 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     out = io.StringIO()
     with style():
         empty = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-        FigureCanvasSVG(figure).print_svg(out, metadata=empty)  # type: ignore[no-untyped-call]
+        FigureCanvasSVG(figure).print_svg(out, metadata=empty)
     text = out.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<style type=\"text/css\">.*?</style>", "", text, flags=re.DOTALL)
@@ -153,7 +153,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
     data, before = io.BytesIO(), figure.dpi
     with style():
         figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
-        FigureCanvasAgg(figure).print_png(data)  # type: ignore[no-untyped-call]
+        FigureCanvasAgg(figure).print_png(data)
         figure.dpi = before  # of what is rasterised if it is drawn as SVG next
     replaced(file, data.getvalue(), "picture")
     another("figure")

@@ -146,7 +146,7 @@ def _labelled(axes: Axes, bank: TaskBank, rows: Indices, numbers: int | Indices,
     x, y = bank.difficulty[rows], bank.ratio[rows]
     look = {"marker": "D", "color": ORANGE, "s": 42} if special else {"marker": "o", "color": BLUE, "s": 34}
     label = "special task" if special else "chosen task"
-    axes.scatter(x, y, edgecolors="white", linewidths=0.8, zorder=4, label=label, **look)  # type: ignore[arg-type]
+    axes.scatter(x, y, edgecolors="white", linewidths=0.8, zorder=4, label=label, **look)
     wide, tall = (np.diff(limits)[0] for limits in (axes.get_xlim(), axes.get_ylim()))
     for k, number in enumerate(np.arange(len(rows)) + numbers):
         near = (np.abs(x[:k] - x[k]) < 0.03 * wide) & (np.abs(y[:k] - y[k]) < 0.06 * tall)

@@ -117,7 +117,7 @@ def _overall(values: Array) -> float:
 
 
 def _with_holm(table: DataFrame) -> DataFrame:
-    table.insert(table.columns.get_loc("p") + 1, "p_holm", holm(table["p"].to_numpy()))  # type: ignore[operator,arg-type]
+    table.insert(table.columns.get_loc("p") + 1, "p_holm", holm(table["p"].to_numpy()))
     return table
 
 
