@@ -176,7 +176,7 @@ def test_simulate_and_stationary_points_read_a_failure_file(cli, tmp_path):
         assert found == plain
 
 
-def test_what_is_kept_on_the_way(cli):
+def test_what_is_kept_on_the_way(cli, tmp_path):
     call = [
         "recover",
         "planar-3r",
@@ -196,6 +196,14 @@ def test_what_is_kept_on_the_way(cli):
     assert np.abs(tool[:, 1] - tool[0, 1]).max() < 1e-4
     assert data["keep"][0]["name"] == "plane"
     assert data["verified"]["kept"][0]["off"] <= 1e-3
+    file = tmp_path / "w.csv"
+    file.write_text("joint1_rad,joint2_rad,joint3_rad\n0.9,-1.2,0\n1.1,-1.2,0\n")
+    checked = ["recover", "planar-3r", "--lock", "joint3=0", "--check", file, "--keep"]
+    code, text, _ = cli(*checked, "plane:0,1,0")
+    assert code == 3
+    assert "m off the plane" in text
+    code, text, _ = cli(*checked, "upright:5deg", "--keep", "plane:0,0,1", "--json")
+    assert (code, json.loads(text)["kept"]) == (3, [False, True])  # its z axis points up
     code, _, err = cli(*call, "--keep", "upwards:3")
     assert code == 2
     assert "use one of upright, rail, plane" in err

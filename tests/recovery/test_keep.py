@@ -125,7 +125,12 @@ def test_an_upright_transfer_with_a_locked_joint(panda):
     # What plans it and what looks at it are different code: a spoilt motion is refused.
     spoilt = np.concatenate([kept.q[:1], kept.q[:1] + 0.2 * np.eye(7)[5], kept.q])
     found = verify(kept.degraded, a, spoilt, rows=row_solver(panda, kept.task).rows, keep=kept.keep)
-    assert "upright is not kept" in str(found)
+    assert "turned away by" in str(found)
+    replay = hf.recovery.check_waypoints(panda, spoilt, bad, keep="upright:5deg")
+    assert not replay.ok
+    assert "turned away by" in "\n".join(replay.describe())
+    assert kept.check().ok
+    assert "what is kept all the way is kept" in kept.check().describe()
 
 
 def test_a_planar_drawer_by_its_closed_form(three):
@@ -159,6 +164,42 @@ def test_a_rail_keeps_place_and_orientation(panda):
     away = poses[:, :3, 3] - pose[:3, 3]
     assert np.linalg.norm(away - np.outer(away @ pose[:3, 2], pose[:3, 2]), axis=1).max() <= 1e-3
     assert np.arccos(np.clip((np.einsum("nij,ij->n", poses[:, :3, :3], pose[:3, :3]) - 1) / 2, -1, 1)).max() <= np.deg2rad(0.5)
+
+
+def test_a_tool_path_without_orientation_is_followed_upright(panda):
+    at = pointing_down(panda, [0.2, 0.3, 0.1, -1.9, 0.2, 2.2, 0.8])
+    here = panda.forward_kinematics(at)[:3, 3]
+    there = here + np.array([0.15, -0.2, 0.1])
+    path = hf.paths.line(here, there)
+    ask = {"goal": None, "path": path, "samples": 0, "clearance": False}
+    plain = hf.recover(panda, {"panda_joint5": at[4]}, at, **ask)
+    assert tilt(poses_on_the_way(panda, plain.q)).max() > np.deg2rad(20)
+    answer = hf.recover(panda, {"panda_joint5": at[4]}, at, **ask, keep=keep.upright(0))
+    assert answer.ok
+    poses = poses_on_the_way(panda, answer.q)
+    assert tilt(poses).max() <= np.deg2rad(0.5)
+    np.testing.assert_allclose(poses[-1, :3, 3], there, atol=1e-5)
+    answer = hf.recover(panda, {"panda_joint5": at[4]}, at, **ask, keep="plane:1,0,0")
+    assert (answer.verdict.answer, answer.verdict.kind) == ("proved infeasible", "a pose of the path")
+
+
+def test_upright_in_a_cell(panda):
+    """Round a ball that is in the way of the upright motion without a cell."""
+    a = pointing_down(panda, [1.92, 1.35, 2.63, -1.39, -1.44, 0.5, 0.98])
+    b = pointing_down(panda, [1.16, -0.04, 2.63, -3.07, 0.52, 3.1, 2.64])
+    ask = {"goal": panda.forward_kinematics(b), "samples": 0, "keep": "upright:15deg"}
+    plain = hf.recover(panda, {"panda_joint3": a[2]}, a, **ask, clearance=False)
+    assert plain.ok
+    tool = poses_on_the_way(panda, plain.q)[:, :3, 3]
+    ball = tool[len(tool) // 2]
+    shape = hf.Clearance(
+        panda, hf.Capsules.along(panda, 0.02), hf.Cell([hf.cell.Sphere("ball", 0.06, pose=ball)]), itself=False
+    )
+    answer = hf.recover(panda, {"panda_joint3": a[2]}, a, **ask, clearance=shape)
+    assert answer.ok
+    poses = poses_on_the_way(panda, answer.q)
+    assert tilt(poses).max() <= np.deg2rad(15)
+    assert np.linalg.norm(poses[:, :3, 3] - ball, axis=1).min() >= 0.06
 
 
 # ---- where it cannot be -----------------------------------------------------------------------------------------------------

@@ -56,10 +56,8 @@ def trouble(case: Case, motion: Motion | None, clearance: Clearance | None) -> s
     if ((q < degraded.lo - _ROUND) | (q > degraded.hi + _ROUND))[:, moves].any():
         return "limits"
     poses = arm.forward_kinematics(q)
-    for kept in case.keep:
-        away, turned = kept.off(poses)
-        if (away > kept.within[0] + _ROUND).any() or (turned > kept.widest + _ROUND).any():
-            return "kept"
+    if any(kept.trouble(poses) for kept in case.keep):
+        return "kept"
     if case.goal is not None and not _met(case, poses[-1:], case.goal[None])[0]:
         return "goal"
     if case.path is not None:

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 Frame = Literal["base", "tool"]
 
 WITHIN = (1e-3, float(np.deg2rad(0.5)))  # m and rad within which a row counts as kept between the waypoints
+_ROUND = 1e-8  # m and rad
 _DOWN = (0.0, 0.0, -1.0)
 _FORWARD = (0.0, 0.0, 1.0)
 
@@ -77,27 +78,33 @@ class Kept:
             turned = np.zeros(len(poses))
         return away, turned
 
-    def trouble(self, pose: Array) -> str:
-        """By how much a pose (4, 4) breaks what is kept, a phrase; empty if it does not."""
-        away, turned = (float(x[0]) for x in self.off(pose[None]))
+    def farthest(self, poses: Array) -> tuple[float, float]:
+        """The most of :meth:`off` at poses (N, 4, 4), m and rad."""
+        away, turned = self.off(poses)
+        return float(away.max()), float(turned.max())
+
+    def trouble(self, poses: Array) -> str:
+        """By how much poses (N, 4, 4) break what is kept at most, a phrase; empty if they do not."""
+        away, turned = self.farthest(poses)
         said = []
-        if away > self.within[0]:
+        if away > self.within[0] + _ROUND:
             said.append(f"{away:.4g} m off the {self.name}")
-        if turned > self.widest + 1e-9:
+        if turned > self.widest + _ROUND:
             said.append(f"turned away by {np.rad2deg(turned):.4g} deg, beyond {np.rad2deg(self.widest):.4g} deg")
         return " and ".join(said)
 
     def __str__(self) -> str:
-        words = [self.name]
-        if self.direction is not None:
-            words.append(
-                f"the tool's axis ({_text(self.axis)}) within {np.rad2deg(self.widest):.4g} deg of ({_text(self.direction)})"
-            )
-        if self.turned:
-            words.append(f"its orientation within {np.rad2deg(self.widest):.4g} deg")
+        said = []
         if len(self.normals):
-            words.append(f"within {self.within[0]:.4g} m")
-        return f"{words[0]}: {', '.join(words[1:])}" if len(words) > 1 else words[0]
+            what = "line along" if len(self.normals) == 2 else "plane across"
+            way = self.normals[0] if len(self.normals) == 1 else np.cross(*self.normals)
+            said.append(f"the tool point on the {what} ({_text(way)})")
+        if self.direction is not None:
+            axis = "the tool's z axis" if np.array_equal(self.axis, _FORWARD) else f"the tool's axis ({_text(self.axis)})"
+            said.append(f"{axis} within {np.rad2deg(self.widest):.4g} deg of ({_text(self.direction)})")
+        if self.turned:
+            said.append("its orientation as it is")
+        return f"{self.name}, {' and '.join(said)}" + " in the tool's axes at the start" * (self.frame == "tool")
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON data: everything that defines it."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from holdfast import registry
 from holdfast.arguments import checked
@@ -16,6 +17,8 @@ from holdfast.grammar import is_number, split
 from holdfast.keep.kept import Kept, plane, rail, upright
 
 KINDS: dict[str, Callable[..., Kept]] = {"upright": upright, "rail": rail, "plane": plane}
+KeepLike = Kept | str | Sequence[Kept | str]
+"""What is kept along a whole motion, or its label, or several."""
 _UNITS = {"deg": np.pi / 180, "rad": 1.0, "mm": 1e-3, "m": 1.0}
 _WITH_UNIT = re.compile(r"(.*\d\.?)\s*(deg|rad|mm|m)")
 
@@ -63,3 +66,19 @@ def _value(key: str, text: str) -> Any:
             raise InputError(f"{key} '{text}' is not a number; write numbers, in rad and m or as 10deg or 2mm")
         found.append(float(number) * _UNITS[unit])
     return found if len(found) > 1 else found[0]
+
+
+def all_kept(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[Kept, ...]:
+    """What is kept, through the tool's pose (4, 4) at the start.
+
+    Raises:
+        InputError: Something that is neither a :class:`holdfast.keep.Kept` nor its label.
+    """
+    given = [] if keep is None else [keep] if isinstance(keep, str | Kept) else list(keep)
+    made = [by_label(one) if isinstance(one, str) else one for one in given]
+    for one in made:
+        if not isinstance(one, Kept):
+            raise InputError(
+                f"keep holds {one!r}; give what hf.keep.upright, rail or plane make, or a label such as 'upright:0.1'"
+            )
+    return tuple(one.anchored(start) for one in made)

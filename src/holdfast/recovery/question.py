@@ -17,7 +17,6 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
 from holdfast.keep.kept import Kept
-from holdfast.keep.labels import by_label
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.recovery import Ending
 from holdfast.recovery.rows import Rows
@@ -27,9 +26,6 @@ if TYPE_CHECKING:
     from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
-
-KeepLike = Kept | str | Sequence[Kept | str]
-"""What is kept along a whole motion, or its label, or several."""
 
 SAME = 1e-6  # rad and m: a joint this near to its angle is there
 
@@ -126,22 +122,6 @@ def goal_of(
     return Goal(text, poses, None, rows)
 
 
-def keep_of(keep: KeepLike | None, start: Array) -> tuple[Kept, ...]:
-    """What is kept, through the tool's pose (4, 4) at the start.
-
-    Raises:
-        InputError: Something that is neither a :class:`holdfast.keep.Kept` nor its label.
-    """
-    given = [] if keep is None else [keep] if isinstance(keep, str | Kept) else list(keep)
-    made = [by_label(one) if isinstance(one, str) else one for one in given]
-    for one in made:
-        if not isinstance(one, Kept):
-            raise InputError(
-                f"keep holds {one!r}; give what hf.keep.upright, rail or plane make, or a label such as 'upright:0.1'"
-            )
-    return tuple(one.anchored(start) for one in made)
-
-
 def broken_by(keep: Sequence[Kept], rows: Rows | None, pose: Array) -> str:
     """Which row kept all the way is broken by whatever meets a goal pose (4, 4), a sentence; empty if none is proved to be.
 
@@ -162,7 +142,7 @@ def broken_by(keep: Sequence[Kept], rows: Rows | None, pose: Array) -> str:
             direction=one.direction if turned else None,
             turned=one.turned and turned,
         )
-        trouble = known.trouble(pose)
+        trouble = known.trouble(pose[None])
         if trouble:
             return f"what is kept all the way is broken there: {trouble} ({one})"
     return ""
@@ -189,7 +169,7 @@ def trouble_of(
         own = int(clearance.closest_pair(at)) < len(clearance.pairs)
         advice = "or no clearance" if own else "or move the object"
         return Ending.START_TOO_CLOSE, f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, {advice}"
-    start = arm.forward_kinematics(at)
+    start = arm.forward_kinematics(at[None])
     for one in keep:
         trouble = one.trouble(start)
         if trouble:

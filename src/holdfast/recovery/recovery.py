@@ -234,7 +234,7 @@ class Recovery(Result):
         Raises:
             InputError: There is no motion.
         """
-        return check_waypoints(self.arm, self.q, self.degraded, clearance=self.clearance, margin=self.margin)
+        return check_waypoints(self.arm, self.q, self.degraded, clearance=self.clearance, margin=self.margin, keep=self.keep)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

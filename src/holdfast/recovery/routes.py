@@ -22,7 +22,7 @@ _APART = 5  # pieces of a walk from one node to the next
 _CUTS = 64  # shortcuts tried a round
 _WALKS = 24  # the same where rows are kept exactly
 _QUIET = 20  # rounds of a tree in which hardly a walk leads to where it is not yet: it fills all that it can get to
-_FRESH = 0.1  # of the reach, how far from every node of its tree a walk must lead to count
+_FRESH = 0.2  # of the reach, how far from every node of its tree a walk must lead to count
 _FEW = 4  # walks that do so in these rounds, of 960
 _IDLE = 8  # rounds without a gain before the way counts as short
 

@@ -20,11 +20,12 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
+from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.continuation import RestOfPath, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachable
-from holdfast.recovery.question import SAME, Goal, KeepLike, broken_by, goal_of, keep_of, task_of, trouble_of
+from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Route, find_route, in_vain
@@ -146,7 +147,7 @@ def recover(
         unit=length.unit,
         clearance=kept,
         margin=margin,
-        keep=keep_of(keep, arm.forward_kinematics(start)),
+        keep=all_kept(keep, arm.forward_kinematics(start)),
         seed=seed,
     )
     standing = np.where(free, start, degraded.lo)

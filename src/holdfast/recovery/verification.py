@@ -27,7 +27,6 @@ Array = NDArray[np.float64]
 AT_WAYPOINTS = 1e-5  # m of an arm of about 1 m, and rad
 BETWEEN = 1e-3, np.deg2rad(0.5)  # m and rad: between the waypoints along a tool path
 _INNER = 4  # places between two waypoints
-_ROUND = 1e-8  # m and rad, of rows kept all the way
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,13 +100,8 @@ def verify(
     if replay.least_room is not None and replay.least_room < margin:
         faults.append(f"the room at {replay.closest} is {replay.least_room:.4g} m")
     faults += _too_fast(degraded, q)
-    kept = []
     poses = tool_poses(arm, finely(q)) if keep else np.zeros((0, 4, 4))
-    for one in keep:
-        away, turned = (float(x.max()) for x in one.off(poses))
-        kept.append((away, turned))
-        if away > one.within[0] + _ROUND or turned > one.widest + _ROUND:
-            faults.append(f"{one.name} is not kept: off by {away:.3g} m, turned away by {np.rad2deg(turned):.4g} deg")
+    faults += [f"the tool is {trouble}" for trouble in (one.trouble(poses) for one in keep) if trouble]
     exact_by = "" if clearance is None else "lower bounds of the distances"
     if clearance is not None and clearance.pair_names:
         try:
@@ -148,7 +142,7 @@ def verify(
         exact_by=exact_by,
         goal_miss=goal_miss,
         path_miss=path_miss,
-        kept=tuple(kept),
+        kept=tuple(one.farthest(poses) for one in keep),
     )
 
 

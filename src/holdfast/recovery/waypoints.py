@@ -22,6 +22,7 @@ from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
 from holdfast.files.output import writing
+from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.paths.joint_table import joint_columns, read_joint_table
 from holdfast.result import Result
 
@@ -85,6 +86,7 @@ class WaypointCheck(Result):
         least_room: m, what is least left beyond the margins of the objects of a cell; None if that was not looked at.
         closest: Names of the pair that attains it, ``panda_joint4 & table``; empty where there is none.
         margin: m, that was asked for.
+        kept: By how much each thing that should be kept all the way is broken, a phrase; empty where it is not.
     """
 
     q: Array
@@ -96,11 +98,12 @@ class WaypointCheck(Result):
     least_room: float | None
     closest: str
     margin: float
+    kept: tuple[str, ...] = ()
 
     @property
     def ok(self) -> bool:
-        """True if limits, locks and clearance are kept."""
-        return self._clear and not self.beyond_limits and not self.locks_moved
+        """True if limits, locks, rows and clearance are kept."""
+        return self._clear and not self.beyond_limits and not self.locks_moved and not any(self.kept)
 
     @property
     def _clear(self) -> bool:
@@ -111,6 +114,9 @@ class WaypointCheck(Result):
         lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
         lines += [f"{name} leaves its limits by {miss:.4g}" for name, miss in self.beyond_limits.items()]
         lines += [f"{name} should be locked and moves {miss:.4g} away" for name, miss in self.locks_moved.items()]
+        lines += [f"the tool is {trouble}" for trouble in self.kept if trouble]
+        if self.kept and not any(self.kept):
+            lines.append("what is kept all the way is kept")
         if self.least_clearance is None:
             lines.append("clearance was not looked at")
         else:
@@ -130,6 +136,7 @@ def check_waypoints(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
+    keep: KeepLike | None = None,
 ) -> WaypointCheck:
     """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by code that shares nothing with the planner.
 
@@ -142,6 +149,7 @@ def check_waypoints(
         cell: Objects around the arm, or their file; looked at if given. What the bound calls too close is asked exactly where a
             library for that is installed.
         margin: m that should be kept; from an object beyond what the cell keeps from it.
+        keep: What the tool should keep along the whole motion; see :func:`holdfast.recover`.
 
     Raises:
         InputError: Invalid waypoints, an unknown joint, or a cell that cannot be read or does not fit.
@@ -165,9 +173,12 @@ def check_waypoints(
         sharp = sharpened(seen, margin) if room < margin else None
         if sharp is not None:
             least, room, closest = _nearest(sharp, fine)
+    poses = arm.forward_kinematics(a)
+    rows = all_kept(keep, poses[0])
     return WaypointCheck(
         q=a,
-        poses=arm.forward_kinematics(a),
+        poses=poses,
+        kept=tuple(one.trouble(arm.forward_kinematics(fine)) for one in rows),
         looked_at=len(fine),
         beyond_limits={arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
         locks_moved={name: miss for name, miss in moved.items() if miss > 1e-12},

@@ -126,7 +126,7 @@ def command(
     if check is not None:
         locked = read_locks(model, lock, degrees, alone=True, failure=failure) if lock or failure else ()
         replay = hf.recovery.check_waypoints(
-            model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0
+            model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0, keep=keep
         )
         printed(replay, json_)
         if not replay.ok:

@@ -25,6 +25,7 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
         "least_room_m": check.least_room,
         "closest": check.closest or None,
         "margin_m": check.margin,
+        "kept": [not trouble for trouble in check.kept],
         "tool_at_end": check.poses[-1],
     }
 
@@ -36,6 +37,7 @@ def key_table(check: WaypointCheck) -> Rows:
         ["waypoints", str(len(check.q))],
         ["limits", ", ".join(check.beyond_limits) or "kept"],
         ["locks", ", ".join(check.locks_moved) or "kept"],
+        *([["kept all the way", ", ".join(filter(None, check.kept)) or "kept"]] if check.kept else []),
         ["least clearance", clearance],
     ]
     return Rows(["", ""], rows)
