@@ -141,8 +141,24 @@ def test_files_in_which_nothing_moves(tmp_path):
     assert [type(x) for x in hf.Cell.load(tmp_path / "a.urdf")] == [Box]
     floor, box = hf.Cell.load(tmp_path / "b.xml")
     assert isinstance(floor, HalfSpace)
-    assert (box.name, box.size.tolist()) == ("world 2", [2, 2, 2])
+    assert floor.name == "half space"
+    assert (box.name, box.size.tolist()) == ("box", [2, 2, 2])
     np.testing.assert_allclose(floor.signed_distance([5, 5, 0]), 1)
+
+
+def test_objects_have_the_names_of_their_geoms(folder):
+    named = MJCF.replace('<geom type="sphere"', '<geom name="knob" type="sphere"').replace(
+        '<geom type="mesh"', '<geom name="post" type="mesh"'
+    )
+    (folder / "named.xml").write_text(named)
+    cell = hf.Cell.from_mjcf(folder / "named.xml")
+    model = mujoco.MjModel.from_xml_path(str(folder / "named.xml"))
+    assert [solid.name for solid in cell] == ["table", "post 2", "knob", "post"]  # the first of the body 'post' has no name
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for solid in cell:
+        if solid.name in ("knob", "post"):
+            np.testing.assert_allclose(solid.pose[:3, 3], data.geom(solid.name).xpos, atol=1e-12)
 
 
 @pytest.mark.parametrize(

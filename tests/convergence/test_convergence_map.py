@@ -13,6 +13,7 @@ import oracles
 from holdfast.cell import Sphere
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.maps import shared
+from holdfast.present.convergence.law_choice import story
 from holdfast.probability.intervals import Interval
 
 
@@ -220,6 +221,29 @@ def test_motions_as_a_data_set(sampled):
         assert share == pytest.approx(sampled.shares()[name].value)
         assert np.array_equal(data.in_reach[..., k], sampled.in_reach[..., k])
     assert np.array_equal(data.q0.sel(joint=sampled.law.arm.joint_names[0]), sampled.q0[..., 0])
+
+
+def test_the_best_law_in_a_cell_is_told_with_what_it_touches():
+    """The cell changes no run, and of each law the runs that touch are those of its own map."""
+    arm, cell = hf.arms.load("planar-3r"), hf.Cell([Sphere("post", 0.3, pose=cells.placed(0.9, 1.1, 0))], name="disc")
+    laws = {"plain": pseudoinverse(arm, "planar"), "weak": damped(arm, 0.5, "planar")}
+    call = {"configurations": 1, "time_limit": 30.0, "seed": 4}
+    choice = hf.best_law(laws, [1.5, 0.9], 2, cell=cell, **call)
+    plain = hf.best_law(laws, [1.5, 0.9], 2, **call)
+    assert choice.ranking == plain.ranking
+    alone = hf.convergence_map(laws["weak"], [1.5, 0.9], 2, cell=cell, **call)
+    touched = alone.touched[alone.known]
+    np.testing.assert_array_equal(choice.map_of("weak").touched[alone.known], touched)
+    assert choice.share("weak", outcome="touched").value == pytest.approx(touched[:, :-1].mean())
+    assert touched.any()
+    with pytest.raises(hf.InputError, match="outcome 'touched' is not known"):
+        plain.share("plain", outcome="touched")
+    assert all("is touched on the way in" in line for line in choice.describe()[1:])
+    assert not any("touch" in line for line in plain.describe())
+    told = story(choice)
+    assert told.tables[0].head[-1] == "touches something, at most"
+    assert told.answer.endswith("of the motions touch something on the way.")
+    assert cell.digest[:12] in dict(told.method)["Contacts"]
 
 
 def test_what_runs_touch_is_what_plane_geometry_finds_in_their_replay(tmp_path):

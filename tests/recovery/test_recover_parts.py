@@ -10,9 +10,9 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules, Clearance
-from holdfast.recovery import check_waypoints, read_waypoints, write_waypoints
+from holdfast.recovery import check_waypoints, read_waypoints, routes, write_waypoints
 from holdfast.recovery.rows import row_solver
-from holdfast.recovery.space import Space
+from holdfast.recovery.space import Metric, Space
 
 TASKS = ["pose", "pointing", "position", ["vx", "wy"], "tool"]
 
@@ -142,3 +142,17 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     assert not replay.ok
     assert replay.least_clearance == pytest.approx(clearance(fine).min(), abs=2e-3)
     assert any("NOT KEPT" in line for line in replay.describe())
+
+
+@pytest.mark.parametrize(("tries", "made"), [(0, 0), (1, 1), (4, 1), (9, 2)])
+def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, tries, made):
+    """A sphere behind which the only free joint, whose limits close the other way round, cannot get."""
+    rounds, connect = [], routes._connect
+    monkeypatch.setattr(routes, "_connect", lambda *given: rounds.append(connect(*given)) or rounds[-1])
+    arm = hf.arms.load("planar-3r")
+    cell = hf.Cell([hf.cell.Sphere("ball", 0.2, pose=[0.8, 0, 0])])
+    ends = np.array([[0.9, 0.3, 0.4], [-0.9, 0.3, 0.4]])
+    space = Space(arm, np.array([True, False, False]), Clearance(arm, cell=cell, itself=False), 0.0, ends)
+    metric = Metric.of(arm, "travel", None, space.free)
+    assert routes.find_route(space, metric, ends[0], ends[1:], tries, np.random.default_rng(0)) is None
+    assert rounds == [None] * made

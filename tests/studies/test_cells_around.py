@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 import cells
+import holdfast as hf
 from holdfast.engine import Study, Threads
 from holdfast.errors import InputError
 from holdfast.studies import read
+from holdfast.studies.results import driven
 
 AT, RADIUS, WIDTH = (0.9, 0.9), 0.3, 0.04
 FILE = """
@@ -58,6 +60,41 @@ def test_a_study_counts_what_hits_its_cell_and_resumes_with_its_files_elsewhere(
     assert Study.open(folder / "results").run(again.cells, Threads(1)) == {}
     np.save(folder / "moved" / "around" / "scan.npy", np.array([[9.0, 9.0, 8.0]]))
     assert read(folder / "moved" / "study.yaml").cells[0].digest != asked.cells[0].digest
+
+
+def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
+    """Runs sampled finely, and the distance of three segments from a disc in closed form."""
+    file = folder / "study" / "study.yaml"
+    block = "convergence: {laws: [pseudoinverse], tasks: [planar], time_limit: 30, cell: around/discs.yaml}"
+    file.write_text(f"seed: 7\nposes: 4\nchunk: 2\narms: [planar-3r]\n{block}\n")
+    asked = read(file)
+    study = Study.create(folder / "results", asked.name, asked.seed, cells=asked.cells, source=asked.text)
+    assert study.run(asked.cells, Threads(1)) == {}
+    rows = [study.store(0).read(k, ("q0", "target", "touched", "code")) for k in range(2)]
+    q0, target, touched, code = (np.concatenate([row[name] for row in rows]) for name in ("q0", "target", "touched", "code"))
+    law, seen = hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), 0
+    for p, k in np.ndindex(4, 4):
+        run = hf.simulate(law, q0[p], target[p], locked=[k] if k < 3 else [], time_limit=30.0, tolerance=1e-8)
+        gap = cells.from_disc([1, 1, 1], WIDTH, run.path(samples=1500).q, AT, RADIUS).min()
+        if gap < -1e-3 or gap > 0.01:
+            assert touched[p, k] == (gap < 0)
+            seen += 1
+    assert seen > 10
+    assert 0 < touched.mean() < 1
+    found = driven(study, 0)
+    assert found.touched == touched[:, :3].mean()
+    shutil.move(folder / "study", folder / "moved")
+    again = read(folder / "moved" / "study.yaml")
+    assert again.cells[0].digest == asked.cells[0].digest
+    file = folder / "moved" / "study.yaml"
+    file.write_text(file.read_text().replace(", cell: around/discs.yaml", ""))
+    plain = read(file)
+    assert plain.cells[0].digest != asked.cells[0].digest
+    other = Study.create(folder / "plain", plain.name, plain.seed, cells=plain.cells, source=plain.text)
+    assert other.run(plain.cells, Threads(1)) == {}
+    assert driven(other, 0).touched is None
+    store = other.store(0)
+    np.testing.assert_array_equal(np.concatenate([store.read(k, ("code",))["code"] for k in range(2)]), code)
 
 
 def test_a_cell_that_cannot_be_used_is_said(folder):

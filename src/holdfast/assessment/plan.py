@@ -16,8 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.arms.serial import from_dict, to_dict
 from holdfast.cell.cell import Cell
-from holdfast.clearance.capsules import Capsules
-from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.choice import CellLike, chosen_clearance, from_stored, stored
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
@@ -153,13 +152,7 @@ class Plan:
         if self.lock_at:
             angles = {self.arm.joint_names[k]: angle for k, angle in self.lock_at}
             data["lock_at"] = {"angles": angles, "restarts": LOCK_RESTARTS}
-        if self.clearance is not None:
-            data["clearance"] = {"capsules": self.clearance.capsules.to_dict(self.arm), "margin": self.margin}
-            if not self.clearance.itself:
-                data["clearance"]["itself"] = False
-        if self.cell is not None:
-            data["cell"] = {"name": self.cell.name, "sha256": self.cell.digest, "data": self.cell.to_dict()}
-        return data
+        return data if self.clearance is None else data | stored(self.clearance, self.margin)
 
     @property
     def storable(self) -> bool:
@@ -200,7 +193,7 @@ class Plan:
             "optimise" in data,
             "after_lock" in data,
             _lock_angles(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
-            None if apart is None else _stored_clearance(arm, apart, data.get("cell")),
+            from_stored(arm, data),
             0.0 if apart is None else apart["margin"],
         )
 
@@ -360,15 +353,6 @@ def make_plan(
         chosen_clearance(arm, clearance, cell, looks=optimise),
         margin,
     )
-
-
-def _stored_clearance(arm: Arm, apart: dict[str, Any], around: dict[str, Any] | None) -> Clearance:
-    cell = None if around is None else Cell.from_dict(around["data"])
-    if cell is not None and around is not None:
-        formerly = cell.digest_with(around["data"].get("arm", {}).get("shape", ""))
-        if around["sha256"] != formerly and around["sha256"] != cell.digest:
-            raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file that it names changed")
-    return Clearance(arm, Capsules.from_dict(apart["capsules"], arm), cell, itself=apart.get("itself", True))
 
 
 def _lock_angles(arm: Arm, locked: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +56,7 @@ def from_mjcf(path: Path, base: str | None, tip: str | None, hold: Mapping[str, 
     _, own, place = _around(tree, base, tip, hold)
     own = own - {tree.root}  # the world, which is never of the arm
     pieces, missing = collected_geoms(model, "collision", lambda body: None if body in own else place(body), world=True)
-    return _data(tree.name, pieces, missing, lambda _: "hull")
+    return _data(tree.name, pieces, missing, lambda _: "hull", tree.root)
 
 
 def _around(tree: Tree, base: str | None, tip: str | None, hold: Mapping[str, float]) -> tuple[str, set[str], Place]:
@@ -82,17 +83,26 @@ def _around(tree: Tree, base: str | None, tip: str | None, hold: Mapping[str, fl
     return base or tree.root, own, place
 
 
-def _data(name: str, pieces: list[Piece], missing: list[Missing], solid: Callable[[Triangles], str]) -> dict[str, Any]:
+def _data(
+    name: str, pieces: list[Piece], missing: list[Missing], solid: Callable[[Triangles], str], world: str = ""
+) -> dict[str, Any]:
     """Objects, which the base may touch: neither moves."""
     if missing:
         raise InputError(f"a shape in it cannot be read: {missing[0].what}; mend or remove it, so that nothing is overlooked")
-    taken: dict[str, int] = {}
-    objects = []
-    for piece in pieces:
-        taken[piece.owner] = taken.get(piece.owner, 0) + 1
-        label = piece.owner if taken[piece.owner] == 1 else f"{piece.owner} {taken[piece.owner]}"
-        objects.append(_solid(label, piece, solid))
+    objects = [_solid(label, piece, solid) for label, piece in zip(_names(pieces, world), pieces, strict=True)]
     return {"objects": objects, "name": name, "may_touch": [(x.name, "base") for x in objects]}
+
+
+def _names(pieces: list[Piece], world: str) -> list[str]:
+    """Their own; else of what carries them, or in the world of what they are, with a number where that is taken."""
+    taken = {piece.label for piece in pieces}
+    names = []
+    for piece in pieces:
+        about = piece.name if piece.owner == world else piece.owner
+        numbered = (about if k == 1 else f"{about} {k}" for k in count(1))
+        names.append(piece.label or next(name for name in numbered if name not in taken))
+        taken.add(names[-1])
+    return names
 
 
 def _solid(name: str, piece: Piece, solid: Callable[[Triangles], str]) -> Solid:

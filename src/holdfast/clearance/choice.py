@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.cell.cell import Cell, as_cell
+from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 
@@ -45,3 +47,31 @@ def chosen_clearance(
     if clearance is None:
         return Clearance.by_default(arm, around) if looks or around is not None else None
     return Clearance(arm, cell=around, itself=clearance) if clearance or around is not None else None
+
+
+def stored(clearance: Clearance, margin: float = 0.0) -> dict[str, Any]:
+    """A clearance, and the margin kept in m, as JSON data: ``clearance`` and, around the arm, ``cell``."""
+    data: dict[str, Any] = {"clearance": {"capsules": clearance.capsules.to_dict(clearance.arm), "margin": margin}}
+    if not clearance.itself:
+        data["clearance"]["itself"] = False
+    if clearance.cell is not None:
+        around = clearance.cell
+        data["cell"] = {"name": around.name, "sha256": around.digest, "data": around.to_dict()}
+    return data
+
+
+def from_stored(arm: Arm, data: dict[str, Any]) -> Clearance | None:
+    """What :func:`stored` made of a clearance; None if the data hold none.
+
+    Raises:
+        InputError: A file that the cell names is gone, or not as it was.
+    """
+    apart, around = data.get("clearance"), data.get("cell")
+    if apart is None:
+        return None
+    cell = None if around is None else Cell.from_dict(around["data"])
+    if cell is not None and around is not None:
+        formerly = cell.digest_with(around["data"].get("arm", {}).get("shape", ""))
+        if around["sha256"] != formerly and around["sha256"] != cell.digest:
+            raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file that it names changed")
+    return Clearance(arm, Capsules.from_dict(apart["capsules"], arm), cell, itself=apart.get("itself", True))

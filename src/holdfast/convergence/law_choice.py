@@ -43,16 +43,25 @@ class LawChoice(Result):
             raise InputError(f"there is no law '{name}'; there are {', '.join(self.names)}")
         return self.maps[self.names.index(name)]
 
-    def share(self, name: str, joint: str | int | None = None, confidence: float = 0.95) -> Interval:
+    def share(
+        self, name: str, joint: str | int | None = None, confidence: float = 0.95, *, outcome: str = "converged"
+    ) -> Interval:
         """Share of the failures after which the arm converges under a law: of one joint, or of all joints alike.
 
+        Args:
+            name: Of the law.
+            joint: By name or index from 0; None: all alike.
+            confidence: Of the interval.
+            outcome: Another one of :meth:`holdfast.ConvergenceMap.happened`; in a cell ``touched``: something is touched on the
+                way.
+
         Raises:
-            InputError: No such law or joint.
+            InputError: No such law, joint or outcome.
         """
         check_confidence(confidence)
         one = self.map_of(name)
         each = int(one.known.sum(axis=1).max(initial=0)) * (one.law.arm.n if joint is None else 1)
-        return shared(self._by_place(name, joint), each, confidence)
+        return shared(self._by_place(name, joint, outcome), each, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
         """How much more often one law converges than another, on the same failures.
@@ -93,12 +102,14 @@ class LawChoice(Result):
             if name != best:
                 d = self.difference(name, best)
                 line += f", {100 * d.value:+.1f} points against the best ({100 * d.low:+.1f} to {100 * d.high:+.1f})"
+            if first.touched is not None:
+                line += f"; something is touched on the way in {100 * self.share(name, outcome='touched').value:.1f} % at most"
             lines.append(line)
         return lines
 
-    def _by_place(self, name: str, joint: str | int | None) -> Array:
+    def _by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> Array:
         one = self.map_of(name)
-        values = one.values("converged")[:, :-1]
+        values = one.values(outcome)[:, :-1]
         return values.mean(axis=1) if joint is None else values[:, one.law.arm.joint_index(joint)]
 
 
@@ -123,7 +134,8 @@ def best_law(
         targets: As for :func:`holdfast.convergence_map`.
         starts: Likewise.
         progress: Called with (runs done, runs in all).
-        options: Everything else that :func:`holdfast.convergence_map` takes.
+        options: Everything else that :func:`holdfast.convergence_map` takes; with ``cell`` it is said how often each law leads
+            into something, which does not change the ranking.
 
     Raises:
         InputError: Fewer than two laws, laws of different arms or tasks, or as :func:`holdfast.convergence_map`.

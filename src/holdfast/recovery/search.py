@@ -28,7 +28,7 @@ from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachab
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
-from holdfast.recovery.routes import Route, find_route
+from holdfast.recovery.routes import Route, find_route, in_vain
 from holdfast.recovery.rows import RowSolver, row_solver
 from holdfast.recovery.second_try import bolder
 from holdfast.recovery.space import Metric, MetricName, Space
@@ -99,7 +99,7 @@ def recover(
         region: Of targets for what is left of the workspace; else poses of random configurations of the healthy arm.
         samples: How many; 0: none.
         starts: Random starts of the search for configurations.
-        tries: Searches for a route where straight lines are blocked.
+        tries: Searches for a route where straight lines are blocked; when a quarter of them found none, no more are made.
         time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
             seed need not give the same result.
         seed: The same seed gives the same result.
@@ -347,7 +347,10 @@ class _Search:
     @property
     def _searches(self) -> str:
         """How many there were, in words."""
-        return f"{self.tries} searches" if not (self.space.spent or self.space.closed_in) else "the searches"
+        if self.space.spent or self.space.closed_in:
+            return "the searches"
+        count = self.tries if self.space.manifold is not None else min(self.tries, in_vain(self.tries))
+        return "1 search" if count == 1 else f"{count} searches"
 
     def _in_the_way(self, here: Array, goal: Array) -> str:
         """What a straight line to a goal meets, if it meets anything."""

@@ -72,6 +72,7 @@ def collected(model: Any, purpose: Purpose, place_of: Place, world: bool = False
                 vertices=vertices,
                 faces=faces,
                 rgba=tuple(float(x) for x in model.geom_rgba[g]),
+                label=str(model.geom(g).name),
             )
         )
     return pieces, missing

@@ -37,6 +37,7 @@ class Piece:
         vertices: (V, 3) m, of a mesh in its own frame, scaled; (0, 3) otherwise.
         faces: (F, 3) indices.
         rgba: Its color, each from 0 to 1, if the file gives one.
+        label: Its own name in the file, if that is unique there; else empty.
     """
 
     link: int
@@ -48,6 +49,7 @@ class Piece:
     vertices: Array
     faces: NDArray[np.int64]
     rgba: tuple[float, ...] | None = None
+    label: str = ""
 
 
 class Missing(NamedTuple):

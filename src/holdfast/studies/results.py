@@ -158,6 +158,7 @@ class Driven:
         each: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was no start.
         any: Its mean, with its interval.
         in_reach: Share of the runs with a locked joint in which the target was in reach.
+        touched: Share of them in which something is touched on the way, at most; None if nobody looked.
     """
 
     labels: dict[str, Any]
@@ -168,16 +169,17 @@ class Driven:
     each: Array
     any: Interval
     in_reach: float
+    touched: float | None = None
 
 
 def driven(study: Study, cell: int) -> Driven | None:
     """The result of a map of convergence; None where there is none."""
     store = study.store(cell)
-    parts = [(rows["code"], rows["in_reach"]) for rows in chunks(study, cell)]
+    parts = [(rows["code"], rows["in_reach"], rows.get("touched")) for rows in chunks(study, cell)]
     if not parts:
         return None
-    code = np.concatenate([c for c, _ in parts])
-    reach = np.concatenate([r for _, r in parts])
+    code, reach = (np.concatenate([part[k] for part in parts]) for k in (0, 1))
+    looked = [part[2] for part in parts if part[2] is not None]
     known = code[:, 0] != NONE
     runs = int(known.sum())
     if not runs:
@@ -189,7 +191,9 @@ def driven(study: Study, cell: int) -> Driven | None:
     joints = tuple(j["name"] for j in store.plan["arm"]["joints"] if j["type"] != "fixed")
     whole = shared(each, code.shape[1] - 1, 0.95)
     labels = labels_of(study, cell)
-    return Driven(labels, joints, runs, ends, reaches, each, whole, float(reach[known, :-1].mean()))
+    near = float(reach[known, :-1].mean())
+    touched = float(np.concatenate(looked)[known, :-1].mean()) if looked else None
+    return Driven(labels, joints, runs, ends, reaches, each, whole, near, touched)
 
 
 def gain(first: Driven, second: Driven) -> Difference | None:

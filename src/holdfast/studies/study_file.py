@@ -123,6 +123,7 @@ class _Timed(_Laws):
 
 class _Convergence(_Timed):
     motions: _Count | None = None
+    cell: str | None = None
 
 
 class _Workspace(_Timed):
@@ -227,7 +228,7 @@ def _cells(model: _File, folder: Path) -> Iterator[Cell]:
             yield from _assess_cells(model, model.assess, spec, arm, label, folder)
         for kind, block in (("convergence", model.convergence), ("workspace", model.workspace), ("bank", model.bank)):
             if block is not None:
-                yield from _law_cells(model, kind, block, spec, arm, label)
+                yield from _law_cells(model, kind, block, spec, arm, label, folder)
 
 
 def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
@@ -346,12 +347,12 @@ def _said(task: str, region: str, failures: str) -> list[str]:
     return [text for text, default in usual if text != default]
 
 
-def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: str) -> Iterator[Cell]:
+def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: str, folder: Path) -> Iterator[Cell]:
     from holdfast.arm.task import as_task
     from holdfast.arms.serial import to_dict
     from holdfast.arms.spec import read_task
     from holdfast.studies.jobs.banks import BankJob
-    from holdfast.studies.jobs.convergence import ConvergenceJob
+    from holdfast.studies.jobs.convergence import ConvergenceJob, looked_at
     from holdfast.studies.jobs.workspaces import WorkspaceJob
 
     chunk = block.chunk or model.chunk
@@ -372,6 +373,7 @@ def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: 
         labels = {"job": kind, "arm": label, "law": law.label, "task": t.name}
         name = "-".join([label, *_said(task, _DEFAULT, "single"), text])
         if kind == "convergence":
+            plan |= looked_at(arm, None if block.cell is None else folder / block.cell)
             yield Cell(name, ConvergenceJob(plan), plan, rows=block.motions or model.poses, chunk=chunk, labels=labels)
         elif kind == "bank":
             from holdfast.teleop.bank.tasks import DISTANCE

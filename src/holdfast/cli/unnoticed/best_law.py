@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import holdfast as hf
+from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
 from holdfast.cli.laws import LawsOption, TargetsOption, read_laws, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_arm
 from holdfast.cli.progress import progress_bar
@@ -20,6 +23,10 @@ def command(
     law: LawsOption = None,
     task: TaskOption = None,
     time_limit: measures.MapTimeOption = None,
+    cell: TouchedCellOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -34,7 +41,8 @@ def command(
     """
     laws = read_laws(law, read_arm(arm, base, tip, hold), task, arm)
     targets, places = read_targets(laws[0], target), read_places(starts)
-    options = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
+    touched = read_contact_shape(laws[0].arm, capsules, radius, cell, meshes)
+    options: dict[str, Any] = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
     with progress_bar(json_, "runs") as progress:
-        result = hf.best_law(laws, targets, places, progress=progress, **options)
+        result = hf.best_law(laws, targets, places, progress=progress, clearance=touched, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

@@ -27,7 +27,11 @@ def key_table(choice: LawChoice) -> Rows:
     """How often each law converges, the best first."""
     found = {name: choice.share(name) for name in choice.ranking}
     rows = [[name, f"{100 * s.value:.1f} % ({100 * s.low:.1f} to {100 * s.high:.1f})"] for name, s in found.items()]
-    return Rows(["law", "converges after a lock, 95 %"], rows)
+    head = ["law", "converges after a lock, 95 %"]
+    if choice.maps[0].touched is None:
+        return Rows(head, rows)
+    touched = [percent(choice.share(name, outcome="touched").value) for name in found]
+    return Rows([*head, "touches something, at most"], [[*row, text] for row, text in zip(rows, touched, strict=True)])
 
 
 def story(choice: LawChoice) -> Story:
@@ -61,6 +65,12 @@ def story(choice: LawChoice) -> Story:
         facts += [(percent(shares[last].value), f"with {last}, the last")] if len(shares) > 2 and shares[last].value else []
     elif p.value:
         answer += "."
+    if first.touched is not None:
+        some = choice.share(best, outcome="touched").value
+        answer += f" With {best} {f'at most {percent(some)}' if some else 'none'} of the motions touch something on the way."
+        facts += (
+            [(percent(some), f"of the motions touch something at most, with {best}; a real arm would stop")] if some else []
+        )
     return Story(
         title,
         answer,

@@ -328,13 +328,15 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         k = int(np.argmin([p.value for p in d.reaches[:-1]]))
         worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.reaches[k].value:.3f}"
         cells: list[Cell] = [_share(d.any), more, worst, _share(d.reaches[-1]), percent(d.in_reach)]
+        cells += [] if laws[0].touched is None else [percent(d.touched or 0.0)]
         rows.append([_whole(d.labels["arm"]), _whole(d.labels["law"]), d.labels["task"], *cells])
     head = ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
+    head += [] if laws[0].touched is None else ["touches something, at most"]
     caption = (
         "95 % intervals. The gain is paired: both laws have the same motions. In reach: runs with a locked joint in which a "
         "configuration at the target exists."
     )
-    return [*blocks, Table(rows, head, frozenset({3, 4, 6, 7}), caption=caption, wide=True)]
+    return [*blocks, Table(rows, head, frozenset({3, 4, 6, 7, 8}), caption=caption, wide=True)]
 
 
 def _others(study: Study, job: str, read: Callable[[Study, int], results.Table | None], noun: str, unit: str) -> list[Block]:

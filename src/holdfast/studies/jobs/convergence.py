@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.model import Arm
+from holdfast.clearance.choice import chosen_clearance, from_stored, stored
+from holdfast.clearance.clearance import Clearance
+from holdfast.control.law import Law
 from holdfast.convergence.maps import convergence_map
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
-from holdfast.studies.jobs.laws import LawJob
+from holdfast.studies.jobs.laws import PlannedLaw
 
 Rows = dict[str, NDArray[Any]]
 
 
-class ConvergenceJob(LawJob):
+def looked_at(arm: Arm, cell: Path | None) -> dict[str, Any]:
+    """What a plan holds of the cell around an arm; nothing without one."""
+    clearance = chosen_clearance(arm, False, cell, looks=False)
+    return {} if clearance is None else stored(clearance)
+
+
+@dataclass(frozen=True, eq=False)
+class ConvergenceJob(PlannedLaw[tuple[Law, Clearance | None]]):
     """Motions between random places, as :func:`holdfast.convergence_map` makes them; a row is a motion.
 
     Attributes:
-        plan: Arm, task, law, time limit.
+        plan: Arm, task, law, time limit; and what was around the arm, if it was looked at.
     """
+
+    def compiled(self) -> tuple[Law, Clearance | None]:
+        """The law, and what the motions are looked at for touching."""
+        law = self.law()
+        return law, from_stored(law.arm, self.plan)
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.engine.Job`."""
-        n = self.made.arm.n
+        law, clearance = self.made
+        n = law.arm.n
         locked = (("locked_or_none", n + 1),)
         return [
             Column(
@@ -35,13 +54,16 @@ class ConvergenceJob(LawJob):
             Column("reason", "uint8", locked, units="1", about="why a run is undecided"),
             Column("in_reach", "uint8", locked, units="1", about="1 if the end effector came to the target, or could have"),
             Column("limits_passed", "uint8", locked, units="1", about="1 if a joint left its limits"),
+            *([] if clearance is None else [Column("touched", "uint8", locked, units="1", about="1 if something is touched")]),
         ]
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.engine.Job`."""
-        law = self.made
+        law, clearance = self.made
         count = len(chunk)
-        found = convergence_map(law, count, count, configurations=1, time_limit=self.plan["time_limit"], seed=chunk.own_seed)
+        limit = self.plan["time_limit"]
+        found = convergence_map(law, count, count, configurations=1, time_limit=limit, seed=chunk.own_seed, clearance=clearance)
+        touched = {} if found.touched is None else {"touched": found.touched[:, 0].astype(np.uint8)}
         return {
             "q0": found.q0[:, 0],
             "target": found.target[:, 0],
@@ -49,4 +71,5 @@ class ConvergenceJob(LawJob):
             "reason": found.reason[:, 0],
             "in_reach": found.in_reach[:, 0].astype(np.uint8),
             "limits_passed": found.limits_passed[:, 0].astype(np.uint8),
+            **touched,
         }
