@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from cells import from_disc, placed
+from holdfast.cell import Sphere
 from holdfast.endurance import tables
 from holdfast.endurance.problem import posed
 from holdfast.errors import HoldfastError, InputError, TaskError
@@ -101,6 +103,50 @@ def test_the_motion_follows_the_path_and_survives_what_it_says(narrow):
     given = hf.endurance_of(machine, best.q, path, samples=21)
     assert given.survival == pytest.approx(best.survival, abs=1e-12)
     assert given.bound is given.gap is given.found is None
+
+
+def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow):
+    """Where a lock leads into a ball the path is not finished: closed form, and distances in the plane."""
+    machine, path, free = narrow
+    centre, ball, width, samples = np.array([0.75, 0.55]), 0.12, 0.03, 11
+    clearance = hf.Clearance(
+        machine,
+        hf.Capsules.along(machine, width),
+        hf.Cell([Sphere("ball", ball, pose=placed(*centre, 0))]),
+        itself=False,
+    )
+    best = hf.endure(machine, path, samples=samples, spacing=0.1, clearance=clearance)
+    points = places(path, samples)
+
+    def room(q):
+        return from_disc([1, 1, 1], width, np.atleast_2d(q), centre, ball)
+
+    def finished(q, joint, points):
+        """Whether it is, in the nearest case: the least room of all that the arm then goes through."""
+        sign = min((s for s in (-1, 1)), key=lambda s: off(q, joint, points[0], s))
+        way = (
+            np.array([configuration(joint, q[joint], p, sign) for p in points]) if survives(machine, q, joint, points) else None
+        )
+        return -np.inf if way is None else room(way).min()
+
+    def off(q, joint, point, sign):
+        found = configuration(joint, q[joint], point, sign)
+        return np.inf if found is None else np.abs(around(found - q)).max()
+
+    assert room(best.q).min() >= -1e-9
+    wrong = total = barred = 0
+    for t in range(samples):
+        assert room(best.found.nodes[t]).min() >= -1e-9
+        for q, got in zip(best.found.nodes[t], best.found.survives[t], strict=True):
+            least = np.array([finished(q, k, points[t:]) for k in range(3)])
+            sure = np.abs(least) > 5e-3  # the bound is a little below the distance
+            wrong += int((got[sure] != (least[sure] > 0)).sum())
+            barred += sum(survives(machine, q, k, points[t:]) and least[k] < 0 for k in range(3))
+            total += 3
+    assert total > 300
+    assert barred > 20
+    assert wrong <= 0.001 * total  # a branch may end between two samples and be met again behind
+    assert best.survival < free.survival
 
 
 def test_a_guarantee_is_given_where_there_is_one():

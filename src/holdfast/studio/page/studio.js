@@ -25,9 +25,9 @@
   const tab = (name) => [...document.querySelectorAll("[role=tab]")].find((x) => x.textContent === name);
   const files = (event) => event.dataTransfer !== null && event.dataTransfer.types.includes("Files");
 
-  function open(file, tries = 100) {
+  function open(file, tries = 500) {
     if (input() === null && tries > 0) {
-      if (tries === 100) {
+      if (tries % 50 === 0) { // the page may not have come far enough to hear the first press
         tab("File")?.click(); // on a phone; else tabs hear keys
         tab("File")?.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
       }
