@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from holdfast.arm.poses import rotation_vectors
 from holdfast.notice import each
 from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too
+from holdfast.recovery.layers import JUMP, through_layers
 from holdfast.recovery.rows import RowSolver, preferred, subsets
 from holdfast.recovery.space import Metric, Space
 
@@ -22,7 +23,6 @@ Flags = NDArray[np.bool_]
 
 _SPACING = 0.01  # m or rad of the end effector between samples
 _LEAST, _MOST = 20, 400  # samples
-_JUMP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
 _STARTS_PER_SET = 12
 
 
@@ -39,6 +39,8 @@ class RestOfPath:
         given_up: Rows given up over the whole path, with the most that they miss on the way; None if all are kept.
         starts: Configurations of the first pose from which the path was followed.
         cut_off: Motions along the path exist, but no route to the beginning of any was found; ``q`` is then empty.
+        graph: Configurations of a graph through all poses that was searched where following the path from each start ended
+            early; 0 if it was not needed, or if the arm has no self-motion left.
     """
 
     furthest: float
@@ -49,6 +51,7 @@ class RestOfPath:
     given_up: RowsGivenUp | None
     starts: int
     cut_off: bool = False
+    graph: int = 0
 
     @property
     def finished(self) -> bool:
@@ -68,7 +71,8 @@ class RestOfPath:
             return "motions along it exist, but no route from here to the beginning of any was found"
         if self.first_lost is not None:
             return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
-        return "each of its poses is reached on its own, but no continuous motion through all of them was found"
+        among = f" among {self.graph:,} configurations joined from pose to pose" if self.graph else ""
+        return f"each of its poses is reached on its own, but no continuous motion through all of them was found{among}"
 
     def describe(self) -> str:
         """One sentence for people."""
@@ -106,9 +110,13 @@ def rest_of_path(
         starts=len(first),
     )
     whole = np.flatnonzero(last == len(share) - 1)
-    if whole.size:
-        motions = _by_length(metric, [q[:, k] for k in whole])
-        return _with(made, solver, path, motions[0], np.ones(solver.rows.m), None), motions
+    motions = _by_length(metric, [q[:, k] for k in whole])
+    if not motions and space.free.sum() > solver.rows.m and _all_reached(solver, space, poses, found, at, starts, rng):
+        graph = through_layers(solver, space, metric, poses, first, at, starts, rng)
+        furthest = max(furthest, float(share[graph.last]))
+        made, motions = replace(made, furthest=furthest, graph=graph.size), graph.motions
+    if motions:
+        return along(made, solver, path, motions[0]), motions
     for size in range(1, solver.rows.m):
         sets = [] if space.spent else subsets(solver.rows.m, size, [])
         best = _without(solver, space, poses, at, sets, rng) if sets else None
@@ -119,7 +127,7 @@ def rest_of_path(
             misses = np.abs(solver.errors(motion, poses)).max(axis=0)[list(given_up)]
             names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
             rows = RowsGivenUp(tuple(names), tuple(misses.tolist()), tuple(units))
-            return _with(made, solver, path, motion, mask, rows), [motion]
+            return replace(along(made, solver, path, motion, mask), given_up=rows), [motion]
     return made, []
 
 
@@ -131,8 +139,19 @@ def _samples(path: Path) -> Array:
     return np.unique(np.concatenate([np.linspace(0, 1, count + 1), path.bounds]))
 
 
-def _reached(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> bool:
-    begin = np.concatenate([at[None], solver.starts(15, at, space.free, rng)])
+def _all_reached(
+    solver: RowSolver, space: Space, poses: Array, found: Flags, at: Array, starts: int, rng: np.random.Generator
+) -> bool:
+    """Poses that were not found are looked for longer, up to the first that is not found again."""
+    for k in np.flatnonzero(~found):
+        found[k] = not space.spent and _reached(solver, space, poses[k], at, rng, starts)
+        if not found[k]:
+            return False
+    return not space.spent
+
+
+def _reached(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator, starts: int = 15) -> bool:
+    begin = np.concatenate([at[None], solver.starts(starts, at, space.free, rng)])
     poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
     q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
     good = solver.meets(q, poses, kept, space.free)
@@ -151,11 +170,11 @@ def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: 
         before = q[k - 1, alive]
         target = np.repeat(poses[k][None], len(alive), axis=0)
         after = solver.nearest(before, target, kept[alive], space.free)
-        far = np.abs(after - before).max(axis=1) > _JUMP
+        far = np.abs(after - before).max(axis=1) > JUMP
         if far.any():  # rows that are given up must not pull the others onto another branch
             after[far] = solver.run(before[far], target[far], kept[alive][far], space.free)
         after = kept_too(solver, space, after, target, kept[alive])
-        good = solver.meets(after, target, kept[alive], space.free) & (np.abs(after - before).max(axis=1) <= _JUMP)
+        good = solver.meets(after, target, kept[alive], space.free) & (np.abs(after - before).max(axis=1) <= JUMP)
         some = np.flatnonzero(good)
         good[some] = space.edges(before[some], after[some])
         alive, after = alive[good], after[good]
@@ -191,7 +210,8 @@ def _without(
     return sets[owner[good][best]], q[:, best]
 
 
-def _with(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array, given_up: RowsGivenUp | None) -> RestOfPath:
+def along(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array | float = 1.0) -> RestOfPath:
+    """The same with the motion q (S, n), and how far it is off between its waypoints in the rows whose ``mask`` is 1."""
     middle = path.pose((made.share[1:] + made.share[:-1]) / 2)
     off = np.abs(solver.errors((q[1:] + q[:-1]) / 2, middle) * mask).max()
-    return replace(made, q=q, deviation=float(off), given_up=given_up)
+    return replace(made, q=q, deviation=float(off))

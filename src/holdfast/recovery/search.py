@@ -22,8 +22,9 @@ from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
-from holdfast.recovery.continuation import RestOfPath, rest_of_path
+from holdfast.recovery.continuation import RestOfPath, along, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
+from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachable
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
@@ -251,6 +252,10 @@ class _Search:
         if route is None:
             return replace(rest, q=np.zeros((0, self.made.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
+        if rest.graph:
+            motion = shorter(self.solver, self.space, self.metric, path.pose(rest.share), motion)
+        if rest.given_up is None:
+            rest = along(rest, self.solver, path, motion)
         motion = motion + (route.q[-1] - motion[0])  # whole turns
         if route.length > SAME:
             self._add("to the path", route.q, route.lower_bound, route.straight)
