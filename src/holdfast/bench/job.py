@@ -19,7 +19,7 @@ from holdfast.bench.judge import trouble
 from holdfast.clearance.choice import from_stored
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
-from holdfast.recovery.verdict import Answer
+from holdfast.recovery.recovery import Answer
 from holdfast.studies.jobs.process import PlannedJob
 
 Rows = dict[str, NDArray[Any]]

@@ -17,11 +17,11 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError
 from holdfast.paths.path import line
 from holdfast.recovery.goals import configurations_of
+from holdfast.recovery.recovery import Answer
 from holdfast.recovery.routes import find_route
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.search import recover
 from holdfast.recovery.space import Metric, Space
-from holdfast.recovery.verdict import Answer
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

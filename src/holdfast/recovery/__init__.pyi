@@ -3,9 +3,9 @@ from holdfast.recovery.goals import RowsGivenUp as RowsGivenUp
 from holdfast.recovery.recovery import Ending as Ending
 from holdfast.recovery.recovery import Leg as Leg
 from holdfast.recovery.recovery import Recovery as Recovery
+from holdfast.recovery.recovery import Verdict as Verdict
 from holdfast.recovery.remainder import WhatIsLeft as WhatIsLeft
 from holdfast.recovery.search import recover as recover
-from holdfast.recovery.verdict import Verdict as Verdict
 from holdfast.recovery.verification import Verification as Verification
 from holdfast.recovery.waypoints import WaypointCheck as WaypointCheck
 from holdfast.recovery.waypoints import check_waypoints as check_waypoints
