@@ -615,8 +615,8 @@ def test_it_runs_where_holdfast_cannot_be_imported(locked, tmp_path):
         "import sys, runpy; sys.modules['holdfast'] = None; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='__main__')"
     )
     for file, code, said in (
-        (path, 0, "8 leaves accepted, 0 rejected"),
-        (other, 1, "7 leaves accepted, 1 rejected"),
+        (path, 0, "accepted: 8, rejected: 0"),
+        (other, 1, "accepted: 7, rejected: 1"),
         (tmp_path, 2, ""),
     ):
         done = subprocess.run([sys.executable, "-c", script, alone, file], capture_output=True, text=True, check=False)

@@ -104,13 +104,17 @@ def sentence(document: dict[str, Any]) -> str:
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw"}.get(axis, axis) for axis in target["axes"]]
     turned = f" and the rotation {[real(x) for x in target['orientation']]}" if target["orientation"] else ""
     text = f"For every {document['task']} target with {spans(axes, target['box'])}{turned}"
+    kept = f"a configuration within the limits ({spans(names, document['limits'])})"
     if document["kind"] == "bundle":
-        text += f" a configuration within the working ranges ({spans(names, document['working_ranges'])}) reaches it,"
-        text += f" and after a lock of any one of {', '.join(names[i] for i in document['locks'])} anywhere in its range"
+        text += (
+            f", a configuration within the working ranges ({spans(names, document['working_ranges'])}) reaches it, and after"
+        )
+        text += f" a lock of any one of {', '.join(names[i] for i in document['locks'])} at any value of its range"
+        kept += " with that value"
     elif document["locked"] >= 0:
-        text += f" and every value at which {spans([names[document['locked']]], [document['angle']])} may be locked"
-    text += f" a configuration within the limits ({spans(names, document['limits'])}) reaches it"
-    return f"{text}; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
+        text += f", and every value {spans(['from'], [document['angle']])} at which {names[document['locked']]} may be locked"
+        kept += " with that value"
+    return f"{text}, {kept} reaches it; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
 
 
 def load(path: Path) -> dict[str, Any]:
@@ -393,9 +397,11 @@ class Verdict:
             f"{math.floor(10**8 * x) / 10**6:.6f} %" if some else f"{float(100 * x):.3g} %"
             for x, some in zip(parts, exact, strict=True)
         ]
-        text = f"Proved: {said[0]}, undecided: {said[1]}{' in the worst part' * bool(self.parts)}; whatever is locked, at least"
-        text += f" {said[2]} of the targets. {self.accepted} leaves accepted, {self.rejected} rejected in {self.seconds:.1f} s"
-        return text + (f": of {self.leaves}, so sampled, not verified." if self.sampled else ".")
+        text = f"Proved: {said[0]}, undecided: {said[1]}{' in the worst part' * bool(self.parts)}"
+        if self.document.get("locked") != -1:
+            text += f"; wherever the lock, at least {said[2]} of the targets"
+        text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
+        return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
 
 
 def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
