@@ -416,7 +416,7 @@ def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Cal
     volumes = {"proved": 1 - open_part, "refuted": Fraction(0), "undecided": open_part}
     written = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
     need(document["volumes"] == written, "volumes are not those of the tree")
-    picked = set(range(count) if sample is None else random.SystemRandom().sample(range(count), min(sample, count)))
+    picked = set(range(count) if sample is None else random.SystemRandom().sample(range(count), max(0, min(sample, count))))
     proofs = zip((cell for token, cell in cells(tree, axes) if token == PROVED), centres, strict=True)
     chosen = (proof for index, proof in enumerate(proofs) if index in picked)
     checked, rejected = 0, list[Cell]()
@@ -473,12 +473,19 @@ def main() -> int:
     parser.add_argument("file", type=Path)
     parser.add_argument("--sample", type=int, help="check so many leaves of each file, drawn at random")
     parser.add_argument("--jobs", type=int, default=1, help="processes")
-    options = parser.parse_args()
+    options, done = parser.parse_args(), [0]
+
+    def tell(size: int) -> None:
+        done[0] += size
+        print(f"\r{done[0]} leaves", end="", file=sys.stderr, flush=True)
+
     try:
-        verdict = verify(options.file, sample=options.sample, workers=options.jobs)
-    except Refused as error:
-        print(f"refused: {error}", file=sys.stderr)
+        progress = tell if sys.stderr.isatty() else None
+        verdict = verify(options.file, sample=options.sample, workers=options.jobs, progress=progress)
+    except (Refused, KeyboardInterrupt) as error:
+        print(f"refused: {error}" if isinstance(error, Refused) else "stopped: nothing is verified", file=sys.stderr)
         return 2
+    print("\r" * bool(done[0]), end="", file=sys.stderr)
     for part in (*verdict.parts, verdict):
         print(part.document["claim"], part.sentence, sep="\n")
     return int(verdict.rejected > 0)
