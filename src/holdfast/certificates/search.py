@@ -188,7 +188,11 @@ class Search:
         for name, place in zip(cells.name[found], np.round(q[found] / UNIT).astype(np.int64), strict=True):
             place[self.reach.locked :][: self.reach.locked >= 0] = 0
             self.tree.token[name], self.tree.centre[int(name)] = PROVED, place
-        some = np.flatnonzero(~found & ~smallest)
+        # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
+        off = np.linalg.norm(self.reach.first(q)[0] - centre[:, : self.reach.m], axis=1)
+        turn = half[:, self.reach.m :].sum(axis=1) * self.reach.chain.lengths.sum()
+        lost = off > 2 * (np.linalg.norm(half[:, : self.reach.m], axis=1) + turn)
+        some = np.flatnonzero(~found & ~smallest & ~lost)
         rest, q = cells.take(some), q[some]
         axis = self._worst_axis(q, centre[some], half[some], rest.depth)
         below = np.array([self.tree.split(int(n), int(a)) for n, a in zip(rest.name, axis, strict=True)], dtype=np.int64)

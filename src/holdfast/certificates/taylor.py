@@ -1,8 +1,9 @@
 """The Taylor form of a reach: which boxes of targets and locked angles one configuration proves.
 
 Around a configuration the free joints follow the target and the locked joint along ``q = q_c + D (delta, s)``, and
-``s -> s - g`` maps a box of corrections into itself where the bound ``e(S)`` of what is left of the error is at most S (Brouwer;
-the explanation of certificates in the documentation). Everything here is doubles and may be wrong: the verifier decides.
+``s -> s - g`` maps a box of corrections into itself where the bound ``e(S)`` of what is left of the error is at most S: by
+Brouwer's theorem it then stays where it is somewhere, and there g = 0. Everything here is doubles and may be wrong: the
+verifier decides.
 """
 
 from __future__ import annotations
