@@ -73,7 +73,7 @@ class Proof(Result):
         spent = "" if self.finished else "; the time limit was spent before the smallest cells were reached"
         return [
             self.document["claim"],
-            f"Found by the prover, not yet verified: proved {share(self.proved)}, undecided {share(self.undecided)}{spent}.",
+            f"Found by the prover, not yet verified: proved {per_cent(self.proved)}, undecided {per_cent(self.undecided)}{spent}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
@@ -129,6 +129,8 @@ def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = 
     Raises:
         InputError: A number out of range, or a box that would take more than 1e8 cells.
     """
+    if not isinstance(claim, ReachClaim):
+        raise InputError("claim must come from holdfast.certificates.reach_claim")
     if not 0 <= halvings <= 20 or seed < 0:
         raise InputError("halvings must be from 0 to 20 and the seed 0 or more")
     if time_limit is not None and not time_limit > 0:
@@ -217,7 +219,7 @@ def check_certificate(file: str | Path, *, sample: int | None = None, workers: i
     )
 
 
-def share(part: Fraction) -> str:
+def per_cent(part: Fraction) -> str:
     """A share in per cent, never rounded up to the whole or down to nothing."""
     if part in (0, 1):
         return f"{100 * int(part)} %"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from holdfast.certificates.proof import CertificateCheck, Proof, share
+from holdfast.certificates.proof import CertificateCheck, Proof, per_cent
 from holdfast.present.printing import Rows
 
 
@@ -24,10 +24,7 @@ def to_dict(found: Proof | CertificateCheck) -> dict[str, Any]:
 def next_steps(found: Proof | CertificateCheck, name: str) -> list[str]:
     """What one does with it."""
     if isinstance(found, Proof):
-        return [
-            f'file = {name}.write("reach.certificate")',
-            "hf.check_certificate(file)  # by other code, which shares nothing",
-        ]
+        return [f'hf.check_certificate({name}.write("reach.certificate"))  # by other code']
     return [f"{name}.ok  # every cell was checked and accepted"]
 
 
@@ -39,9 +36,9 @@ def tables(found: Proof | CertificateCheck) -> list[Rows]:
 def key_table(found: Proof | CertificateCheck) -> Rows:
     """Shares and cells."""
     if isinstance(found, Proof):
-        rows = [["proved, not yet verified", share(found.proved)], ["undecided", share(found.undecided)]]
+        rows = [["proved, not yet verified", per_cent(found.proved)], ["undecided", per_cent(found.undecided)]]
         return Rows(["", ""], [*rows, ["cells proved", f"{found.leaves:,}"], ["cells looked at", f"{found.nodes:,}"]])
-    rows = [["accepted", f"{found.accepted:,}"], ["rejected", f"{found.rejected:,}"], ["undecided", share(found.undecided)]]
+    rows = [["accepted", f"{found.accepted:,}"], ["rejected", f"{found.rejected:,}"], ["undecided", per_cent(found.undecided)]]
     return Rows(["", ""], rows)
 
 
