@@ -59,6 +59,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     arm, law, q, region, index, run = (g[x] for x in ("arm", "law", "q", "region", "index", "run"))
     target, pose = [1.5, 1.5], arm.forward_kinematics(q)
     at_planar = {"arm": arm, "task": "planar"}
+    claim = hf.certificates.reach_claim(arm, (1.2, 0.5), 0.1)
     urdf = str(DATA.joinpath("iiwa14.urdf"))
     found: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
         "all_configurations": (
@@ -78,6 +79,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"arm": arm, "region": region, "index": index, "poses": 5, "seed": 0, "sampling": "random", "restarts": 2}
             | {"store": folder / "a", "keep": None, "task": "planar", "after_lock": False, "locked": {0: 0.1}, "margin": 0.0},
         ),
+        "certify": (
+            hf.certify,
+            {"claim": claim, "halvings": 2, "time_limit": 5.0, "seed": 0},
+        ),
+        "check_certificate": (hf.check_certificate, {"file": str(folder / "none.certificate"), "sample": 1, "workers": 1}),
         "basins": (
             hf.basins,
             {"law": law, "target": target, "locked": {1: 0.5}, "starts": 5, "grid": None, "seed": 0}

@@ -22,6 +22,7 @@ MODULES = {
     "arms",
     "bench",
     "cell",
+    "certificates",
     "closed_form",
     "control",
     "indices",

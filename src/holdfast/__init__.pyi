@@ -1,6 +1,7 @@
 from holdfast import arms as arms
 from holdfast import bench as bench
 from holdfast import cell as cell
+from holdfast import certificates as certificates
 from holdfast import control as control
 from holdfast import indices as indices
 from holdfast import keep as keep
@@ -17,6 +18,8 @@ from holdfast.assessment import assess as assess
 from holdfast.assessment import compare_assessments as compare_assessments
 from holdfast.assessment import load as load
 from holdfast.cell import Cell as Cell
+from holdfast.certificates import certify as certify
+from holdfast.certificates import check_certificate as check_certificate
 from holdfast.clearance import Capsules as Capsules
 from holdfast.clearance import CellCheck as CellCheck
 from holdfast.clearance import Clearance as Clearance

@@ -35,6 +35,7 @@ FIRST = {  # commands before
     "study run": [STUDY],
     **{f"study {of}": DONE for of in ("status", "verify", "report")},
     "study merge": [STUDY, *(f"study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
+    **{f"certificate {of}": ["certify reach planar-3r --box '1.5 0.5' --size 0.2"] for of in ("check", "show")},
     **{f"teleop {of}": [EXPERIMENT] for of in ("replay", "verify", "backup", "export", "subjects")},
 }
 CHEAPER = {  # options at the end, the last of which counts
@@ -59,7 +60,16 @@ CHEAPER = {  # options at the end, the last of which counts
 }
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
 QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "free-swing"}
-QUICK |= {"study new", "study run", "teleop allocation", "teleop protocol", "teleop texts"}
+QUICK |= {
+    "certify reach",
+    "certificate check",
+    "certificate show",
+    "study new",
+    "study run",
+    "teleop allocation",
+    "teleop protocol",
+    "teleop texts",
+}
 
 
 def examples():

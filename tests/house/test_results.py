@@ -33,6 +33,7 @@ RESULTS = named(
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing "
         "LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "bench": "FailActive",
+        "certificates": "CertificateCheck Proof",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
@@ -76,6 +77,7 @@ INPUTS = named(
         "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "bench": "Case",
+        "certificates": "ReachClaim",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
         "control": "Law",

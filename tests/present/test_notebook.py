@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 from functools import cache
+from pathlib import Path
+from tempfile import mkdtemp
 
 import numpy as np
 import pytest
@@ -56,6 +58,10 @@ def found(function, *args, **options):
 
 
 @cache
+def proof():
+    return hf.certify(hf.certificates.reach_claim(arm(), (1.5, 0.5), 0.1), halvings=1)
+
+
 def recovered():
     return hf.recover(arm(), "joint2", X, goal="home", region=region(), samples=20)
 
@@ -65,6 +71,7 @@ MADE = {
     "Assessment": lambda: assessed(),
     "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
     "CellCheck": found(lambda: hf.check_cell(hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), arm())),
+    "CertificateCheck": lambda: hf.check_certificate(proof().write(Path(mkdtemp()) / "a.certificate")),
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
     "Configurations": found(lambda: hf.all_configurations(arm(), TARGET, "planar")),
     "ConvergenceMap": lambda: mapped(),
@@ -79,6 +86,7 @@ MADE = {
     "Optima": found(lambda: hf.optimise(arm(), arm().forward_kinematics(X), index(), starts=3)),
     "Path": path,
     "Recovery": recovered,
+    "Proof": lambda: proof(),
     "Region": region,
     "Runs": found(lambda: hf.simulate(law(), X, TARGET, locked={"joint2": None})),
     "SelfMotion": found(lambda: hf.self_motion(arm(), TARGET, "planar", starts=4)),
@@ -94,7 +102,7 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "Configurations", "Optima", "StationaryPoints", "WaypointCheck"}
+WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

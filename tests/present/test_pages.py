@@ -24,7 +24,12 @@ from holdfast.words import together
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
-PARTS = {"Configurations", "WaypointCheck"}  # of a result, without a command that writes their page
+PARTS = {
+    "CertificateCheck",
+    "Configurations",
+    "Proof",
+    "WaypointCheck",
+}  # of a result, without a command that writes their page
 NAMES = [e.name for kind in (Ending, Outcome, Reason, Status) for e in kind if "_" in e.name or e.name in ("HOME", "CONVERGED")]
 
 

@@ -37,6 +37,8 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "optimise": "before.optimise",
     "follow": "before.follow",
     "endure": "before.endure",
+    "certify": "before.certify",
+    "certificate": "before.certify:certificate",
     "trade-off": "before.trade_off",
     "design": "before.design",
     "simulate": "unnoticed.simulate",

@@ -1,0 +1,149 @@
+"""``holdfast certify``: reach. ``holdfast certificate``: check, show."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    JsonOption,
+    SeedOption,
+    TipOption,
+    read_arm,
+    read_joint,
+    read_numbers,
+)
+from holdfast.errors import InputError
+from holdfast.present.results import printed
+
+UNDECIDED, REJECTED = 3, 1
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
+
+command = typer.Typer(
+    name="certify",
+    help="Prove that an arm reaches every target of a box, and write a certificate.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+certificate = typer.Typer(
+    name="certificate",
+    help="Check certificates, by code that shares nothing with what made them.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+@command.command()
+def reach(
+    arm: ArmArgument,
+    box: Annotated[str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)],
+    size: Annotated[
+        str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
+    ],
+    lock: Annotated[
+        str | None,
+        typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
+    ] = None,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
+    ] = None,
+    degrees: Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")] = False,
+    halvings: Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")] = 8,
+    time_limit: Annotated[
+        float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
+    ] = None,
+    check: Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")] = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("reach.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something.
+
+    Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
+    """
+    model = read_arm(arm, base, tip, hold)
+    locks = [] if lock is None else [lock]
+    claim = hf.certificates.reach_claim(
+        model,
+        read_numbers("--box", box, "two or three numbers, m,"),
+        read_numbers("--size", size, "one number, or one for each axis, m,"),
+        locked=_intervals(model, locks, degrees) or None,
+        limits=_intervals(model, limit or [], degrees),
+    )
+    proof = hf.certify(claim, halvings=halvings, time_limit=time_limit, seed=seed)
+    file = proof.write(out)
+    found = hf.check_certificate(file) if check else None
+    printed(found or proof, json_, [file])
+    if found is not None and found.rejected:
+        raise typer.Exit(REJECTED)
+    if not proof.ok:
+        raise typer.Exit(UNDECIDED)
+
+
+@certificate.command()
+def check(
+    file: FileArgument,
+    sample: Annotated[
+        int | None, typer.Option("--sample", help="Only so many cells, drawn at random.", show_default=False)
+    ] = None,
+    workers: Annotated[int, typer.Option("--workers", help="Processes.")] = 1,
+    json_: JsonOption = False,
+) -> None:
+    """Check a certificate: every cell again, in ball arithmetic.
+
+    The exit code is 1 if a cell is rejected.
+
+    Example: holdfast certificate check reach.certificate
+    """
+    found = hf.check_certificate(file, sample=sample, workers=workers)
+    printed(found, json_)
+    if found.rejected:
+        raise typer.Exit(REJECTED)
+
+
+@certificate.command()
+def show(file: FileArgument) -> None:
+    """Show what a certificate claims, without checking the proof.
+
+    Example: holdfast certificate show reach.certificate
+    """
+    from holdfast.certificates import verifier
+
+    try:
+        document = verifier.load(file)
+    except verifier.Refused as error:
+        raise InputError(str(error)) from error
+    volumes = document["volumes"]
+    typer.echo(document["claim"])
+    typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
+
+
+def _intervals(arm: hf.Arm, texts: list[str], degrees: bool) -> dict[str | int, tuple[float, float]]:
+    """``JOINT=LOW..HIGH`` as numbers, rad."""
+    found: dict[str | int, tuple[float, float]] = {}
+    for text in texts:
+        name, equals, span = text.partition("=")
+        low, dots, high = span.partition("..")
+        try:
+            pair = float(low), float(high)
+        except ValueError:
+            pair = None
+        if not equals or not dots or pair is None:
+            raise InputError(f"'{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5")
+        found[arm.joint_names[read_joint(arm, name)]] = (
+            (float(np.deg2rad(pair[0])), float(np.deg2rad(pair[1]))) if degrees else pair
+        )
+    return found

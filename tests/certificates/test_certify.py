@@ -1,0 +1,186 @@
+"""What the prover finds, against closed forms, sampled errors and inverse kinematics of another library."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from scipy.optimize import least_squares
+
+import holdfast as hf
+import oracles
+from holdfast.certificates import reach_claim, verifier
+from holdfast.certificates.taylor import Chain, Form, Reach
+from holdfast.errors import InputError
+
+
+@pytest.fixture(scope="module")
+def three():
+    return hf.arms.load("planar-3r")
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return hf.arms.load("panda")
+
+
+def test_the_chain_is_the_arm(panda, rng):
+    for arm in (panda, oracles.random_arm(rng, types="RRRRR", limits=2.0)):
+        q = rng.uniform(-1.5, 1.5, (20, arm.n))
+        tip, axes, points = Chain.of(arm).followed(q)
+        np.testing.assert_allclose(tip, arm.forward_kinematics(q)[:, :3, 3], atol=1e-13)
+        np.testing.assert_allclose(np.cross(axes, tip[:, None] - points).swapaxes(1, 2), arm.jacobian(q)[:, :3], atol=1e-12)
+
+
+@pytest.mark.parametrize("locked", [-1, 1, 3])
+def test_the_error_is_never_larger_than_its_bound(panda, locked, rng):
+    """The third-order remainder and all before it, at random points of random boxes; far from it the bound would be useless."""
+    arm = oracles.random_arm(rng, types="RRRRR", limits=2.5)
+    reach = Reach(Chain.of(arm), 3, locked, np.tile([-9.0, 9.0], (5, 1)))
+    q = rng.uniform(-1.5, 1.5, (40, 5))
+    at = arm.forward_kinematics(q)[:, :3, 3]
+    form = Form.at(reach, q, at + rng.uniform(-1e-3, 1e-3, (40, 3)))
+    axes = 3 + (locked >= 0)
+    widths = rng.uniform(0, 0.08, (40, axes + 3))
+    above, below, _ = form.sides(widths)
+    inverse = reach.inverse(reach.first(q)[1])
+    jacobians = reach.first(q)[1]
+    closest = 0.0
+    for _ in range(50):
+        x = rng.choice([-1.0, 1.0, 0.3], widths.shape) * widths
+        delta, s = x[:, :axes], x[:, axes:]
+        follow = (inverse @ (delta[:, :3] + s)[:, :, None])[..., 0]
+        if locked >= 0:
+            follow -= (inverse @ jacobians[:, :, [locked]])[..., 0] * delta[:, [3]]
+            follow[:, locked] = delta[:, 3]
+        error = arm.forward_kinematics(q + follow)[:, :3, 3] - (at - form.error) - delta[:, :3] - s
+        assert (error <= above + 1e-12).all()
+        assert (-error <= below + 1e-12).all()
+        closest = max(closest, float(np.maximum(error / above, -error / below).max()))
+    assert closest > 0.15
+
+
+def reached(box, angle, count=400):
+    """Share of targets and angles of joint 2 where three unit links, full turns, reach: |r - 2 cos(theta/2)| <= 1."""
+    x, y = (np.linspace(*side, 2 * count + 1)[1::2] for side in box)
+    far = np.hypot(x[:, None], y[None]).ravel()
+    arms = 2 * np.cos(np.linspace(*angle, 2 * 60 + 1)[1::2] / 2)
+    return float(np.mean([(abs(far - a) <= 1).mean() for a in arms]))
+
+
+def test_what_is_proved_is_no_more_than_the_truth(three, tmp_path):
+    claim = reach_claim(three, (1.9, 1.9), 1.2, locked={"joint2": (1.0, 1.6)})
+    proof = hf.certify(claim, halvings=4)
+    truth = reached(claim.box, claim.angle)
+    assert proof.proved + proof.undecided == 1
+    assert truth - 0.2 < float(proof.proved) <= truth + 1e-3  # the grid of the truth has cells too
+    assert not proof.ok
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert check.ok
+    assert check.accepted == proof.leaves
+    assert check.undecided == proof.undecided
+    coarser = hf.certify(claim, halvings=3)
+    assert coarser.undecided > proof.undecided > 0
+
+
+def test_a_box_within_reach_is_proved_whole_and_twice_alike(three, tmp_path):
+    claim = reach_claim(three, (1.2, 0.9), (0.3, 0.2), locked={"joint3": (0.8, 1.5)})
+    proof = hf.certify(claim)
+    assert proof.ok
+    assert proof.undecided == 0
+    assert proof.proved == Fraction(1)
+    assert hf.certify(claim).document["digest"] == proof.document["digest"]
+    assert hf.check_certificate(proof.write(tmp_path / "a.certificate")).ok
+    assert "not yet verified" in " ".join(proof.describe())
+
+
+@pytest.fixture(scope="module")
+def elbow(panda):
+    claim = reach_claim(panda, (0.5, 0.05, 0.5), 0.1, locked={"panda_joint4": (-2.0, -1.9)})
+    return claim, hf.certify(claim, seed=3)
+
+
+def test_every_target_of_a_panda_has_a_configuration(panda, elbow, rng, tmp_path):
+    """Random targets and angles, corners among them: scipy and Pinocchio find a configuration within the limits."""
+    claim, proof = elbow
+    assert proof.ok
+    assert hf.check_certificate(proof.write(tmp_path / "a.certificate")).rejected == 0
+    model, tool = oracles.to_pinocchio(panda)
+    data = model.createData()
+    free = [k for k in range(7) if k != 3]
+
+    def off(x, q, point):
+        q[free] = x
+        pin.framesForwardKinematics(model, data, q)
+        return data.oMf[tool].translation - point
+
+    for _ in range(40):
+        share = rng.uniform(-0.2, 1.2, 4).clip(0, 1)
+        point = claim.box[:, 0] + share[:3] * np.diff(claim.box)[:, 0]
+        q = np.zeros(7)
+        q[3] = claim.angle[0] + share[3] * np.diff(claim.angle)[0]
+        for _ in range(60):
+            start = rng.uniform(panda.lower[free], panda.upper[free])
+            bounds = panda.lower[free], panda.upper[free]
+            found = least_squares(off, start, bounds=bounds, args=(q, point), xtol=1e-15, ftol=1e-15, gtol=1e-15)
+            if np.abs(found.fun).max() < 1e-9:
+                break
+        else:
+            raise AssertionError(f"no configuration for {point} at {q[3]}")
+
+
+def test_what_cannot_be_reached_stays_undecided(panda):
+    proof = hf.certify(reach_claim(panda, (1.5, 0, 0.3), 0.1), halvings=1)
+    assert proof.undecided == 1
+    assert proof.proved == 0
+    assert proof.leaves == 0
+
+
+def test_a_time_limit_leaves_the_rest_undecided(panda):
+    proof = hf.certify(reach_claim(panda, (0.5, 0, 0.5), 0.6), time_limit=0.01)
+    assert not proof.finished
+    assert 0 < proof.undecided <= 1
+    assert proof.proved + proof.undecided == 1
+    tokens = verifier.unpacked(proof.document["tree"], 10**7, "tree")
+    assert sum(token >= 16 for token in tokens) + 1 == sum(token < 16 for token in tokens)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"centre": (0.5, 0, np.nan)}, "finite"),
+        ({"centre": (0.5,)}, "three finite numbers"),
+        ({"size": -0.1}, "size of the box"),
+        ({"size": 0}, "size of the box"),
+        ({"locked": {"panda_joint9": (0, 1)}}, "no joint 'panda_joint9'"),
+        ({"locked": {"panda_joint4": (-1.0, -2.0)}}, "lower one first"),
+        ({"locked": {"panda_joint4": (-4.0, -2.0)}}, "outside of its limits"),
+        ({"locked": {"panda_joint4": (-2, -1), "panda_joint1": (0, 1)}}, "one, or none"),
+        ({"limits": {"panda_joint1": (-9.0, 0.0)}}, "outside of its limits"),
+    ],
+)
+def test_what_makes_no_claim(panda, change, sentence):
+    with pytest.raises(InputError, match=sentence):
+        reach_claim(panda, **({"centre": (0.5, 0, 0.5), "size": 0.1} | change))
+
+
+def test_what_is_refused(panda, three, mixed5, tmp_path):
+    with pytest.raises(InputError, match="slides"):
+        reach_claim(mixed5, (0.5, 0, 0.5), 0.1)
+    with pytest.raises(InputError, match="2 joints are left for 3 rows"):
+        reach_claim(three, (0.5, 0.5, 0.0), 0.1, locked={"joint1": (0, 1)})
+    with pytest.raises(InputError, match="halvings"):
+        hf.certify(reach_claim(three, (1, 1), 0.1), halvings=30)
+    with pytest.raises(InputError, match="cannot read"):
+        hf.check_certificate(tmp_path / "none.certificate")
+    (tmp_path / "bad.certificate").write_text("{}")
+    with pytest.raises(InputError, match="form"):
+        hf.check_certificate(tmp_path / "bad.certificate")
+
+
+def test_smaller_boxes_take_fewer_cells(three):
+    sizes = [hf.certify(reach_claim(three, (1.5, 0.8), size, locked={"joint1": (0.2, 0.6)})).leaves for size in (0.1, 0.4, 0.8)]
+    assert all(a <= b for a, b in pairwise(sizes))

@@ -1,0 +1,29 @@
+"""Certificates from the command line."""
+
+from __future__ import annotations
+
+import json
+
+
+def test_the_commands(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "reach", "planar-3r", "--box", "1.5 0.5", "--size", "0.4", "--out", str(file)]
+    code, out, _ = cli(*words, "--lock", "2=50..60", "--degrees", "--json")
+    assert code == 0
+    assert json.loads(out)["rejected"] == 0
+    lines = [line for line in cli("certificate", "show", str(file))[1].splitlines() if line]
+    assert "joint2 may be locked" in lines[0]
+    assert "not checked" in lines[-1]
+    code, out, _ = cli("certificate", "check", str(file))
+    assert code == 0
+    assert "rejected: 0" in out
+    code, out, _ = cli(*words[:3], "--box", "2.6 1.2", "--size", "0.6", "--halvings", "3", "--no-check", "--out", str(file))
+    assert code == 3
+    assert "not yet verified" in out
+    assert "undecided" in out
+    code, _, err = cli(*words, "--lock", "2=50")
+    assert code == 2
+    assert "JOINT=LOW..HIGH" in err
+    text = file.read_text().replace('"locked": -1', '"locked": 1')
+    file.write_text(text)
+    assert cli("certificate", "check", str(file))[0] == 2
