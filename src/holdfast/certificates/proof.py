@@ -73,7 +73,8 @@ class Proof(Result):
         spent = "" if self.finished else "; the time limit was spent before the smallest cells were reached"
         return [
             self.document["claim"],
-            f"Found by the prover, not yet verified: proved {per_cent(self.proved)}, undecided {per_cent(self.undecided)}{spent}.",
+            f"Found by the prover, not yet verified: proved {per_cent(self.proved)}, undecided {per_cent(self.undecided)}"
+            f"{spent}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]

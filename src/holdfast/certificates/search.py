@@ -162,9 +162,9 @@ class Search:
         self.nodes += len(cells.name)
         scale = 0.5 ** (cells.depth + 1)
         half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
-        q, found, share = self._tried(cells.q, centre, half)
+        q, found, part = self._tried(cells.q, centre, half)
         smallest = (cells.depth >= self.halvings)[:, self.width > 0].all(axis=1)
-        several = np.flatnonzero(~found & ((share < _HOPELESS) | smallest))
+        several = np.flatnonzero(~found & ((part < _HOPELESS) | smallest))
         count = min(_NEAR[1], len(self.pool)) if several.size else 0
         near = np.zeros((len(q), count), dtype=np.intp)
         if self._near is not None and count:
@@ -172,19 +172,19 @@ class Search:
             near[several] = found_near[1]
         for k in range(count):
             # Others have much to prove still; of the smallest, all are tried.
-            which = np.flatnonzero(~found & ((share < _HOPELESS) & (k < _NEAR[0]) | smallest))
+            which = np.flatnonzero(~found & ((part < _HOPELESS) & (k < _NEAR[0]) | smallest))
             which = np.intersect1d(which, several)
             if which.size:
-                self._improve(q, found, share, which, self.pool[near[which, k]], centre, half)
+                self._improve(q, found, part, which, self.pool[near[which, k]], centre, half)
         for _ in range(_STEPS if self.reach.free.sum() > self.reach.m else 0):
-            which = np.flatnonzero(~found & ((share > 0.5) | smallest))
+            which = np.flatnonzero(~found & ((part > 0.5) | smallest))
             if not which.size:
                 break
             jacobians = self.reach.first(q[which])[1]
             move = self.rng.normal(size=(len(which), self.reach.n)) * self.reach.free
             move -= (self.reach.inverse(jacobians, 1e-12) @ (jacobians @ move[:, :, None]))[:, :, 0]
             move *= (self.rng.uniform(0, _STRIDE, len(which)) / np.maximum(np.abs(move).max(axis=1), 1e-9))[:, None]
-            self._improve(q, found, share, which, q[which] + move, centre, half)
+            self._improve(q, found, part, which, q[which] + move, centre, half)
         for name, place in zip(cells.name[found], np.round(q[found] / UNIT).astype(np.int64), strict=True):
             place[self.reach.locked :][: self.reach.locked >= 0] = 0
             self.tree.token[name], self.tree.centre[int(name)] = PROVED, place
@@ -203,12 +203,12 @@ class Search:
         return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(q, 2, axis=0))
 
     def _improve(
-        self, q: Array, found: Flags, share: Array, which: NDArray[np.intp], begin: Array, centre: Array, half: Array
+        self, q: Array, found: Flags, part: Array, which: NDArray[np.intp], begin: Array, centre: Array, half: Array
     ) -> None:
         """In place: what is found from other configurations is taken where it proves more."""
         other, good, more = self._tried(begin, centre[which], half[which])
-        better = good | (more > share[which])
-        q[which[better]], found[which[better]], share[which[better]] = other[better], good[better], more[better]
+        better = good | (more > part[which])
+        q[which[better]], found[which[better]], part[which[better]] = other[better], good[better], more[better]
 
     def _tried(self, q: Array, centre: Array, half: Array) -> tuple[Array, Flags, Array]:
         """Rounded configurations near q (N, n), which of the cells they prove, and how much of the others, by width."""
@@ -216,17 +216,17 @@ class Search:
         q = self._rounded(self.reach.solved(self._at(q, centre), centre[:, :m]), centre)
         form = Form.at(self.reach, q, centre[:, :m])
         found, sections = form.proved(half)
-        share = found.astype(float)
+        part = found.astype(float)
         rest = np.flatnonzero(~found)
         if rest.size:
-            share[rest] = form.take(rest).scale(half[rest])
+            part[rest] = form.take(rest).scale(half[rest])
             # The error in the middle may cancel half of the curvature.
-            near = rest[share[rest] > 0.5]
+            near = rest[part[rest] > 0.5]
             above, below, _ = form.take(near).sides(np.concatenate([half[near], sections[near]], axis=1))
             moved = self._rounded(self.reach.solved(q[near], centre[near, :m] - (above - below) / 2, 3), centre[near])
             good, _ = Form.at(self.reach, moved, centre[near, :m]).proved(half[near])
-            q[near[good]], found[near[good]], share[near[good]] = moved[good], True, 1.0
-        return q, found, share
+            q[near[good]], found[near[good]], part[near[good]] = moved[good], True, 1.0
+        return q, found, part
 
     def _rounded(self, q: Array, centre: Array) -> Array:
         return self._at(np.round(q / UNIT) * UNIT, centre)
