@@ -17,8 +17,8 @@ def to_dict(found: Proof | CertificateCheck) -> dict[str, Any]:
     else:
         counts = {"leaves": found.leaves, "accepted": found.accepted, "rejected": found.rejected}
         claim, parts = found.claim, {"undecided": found.undecided, "tolerant": found.tolerant}
-    shares = {key: {"share": float(part), "fraction": _text(part)} for key, part in parts.items()}
-    return {"claim": claim, **shares, **counts, "seconds": found.seconds}
+    written = {key: {"value": float(part), "fraction": _text(part)} for key, part in parts.items()}
+    return {"claim": claim, **written, **counts, "seconds": found.seconds}
 
 
 def next_steps(found: Proof | CertificateCheck, name: str) -> list[str]:
