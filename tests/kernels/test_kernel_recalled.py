@@ -163,6 +163,20 @@ class Mine:
     value: float
 
 
+def test_another_thread_may_keep_something_in_the_middle_of_a_digest(monkeypatch):
+    """The attributes of an arm grow when something that it caches is first asked for."""
+    arm = hf.arms.load("planar-3r")
+    index = hf.indices.manipulability(arm, "planar")
+    expected, look = digest_of(index), recipe.getattr_static
+
+    def looked(*args):
+        vars(index)[f"_kept_{len(vars(index))}"] = 1  # as another thread would, between two steps of the loop
+        return look(*args)
+
+    monkeypatch.setattr(recipe, "getattr_static", looked)
+    assert digest_of(index) == expected
+
+
 def test_what_is_somebody_elses_has_no_digest(mixed5):
     """Its code may change where nobody looks."""
     holds_itself: list[object] = []

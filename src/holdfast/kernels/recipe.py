@@ -133,7 +133,7 @@ def _state(x: Any) -> list[tuple[str, Any]]:
     if not (hasattr(x, "__dict__") or dataclasses.is_dataclass(x)):
         raise _Unknown
     state = {f.name: getattr(x, f.name) for f in dataclasses.fields(x)} if dataclasses.is_dataclass(x) else {}
-    for name, value in getattr(x, "__dict__", {}).items():
+    for name, value in dict(getattr(x, "__dict__", {})).items():  # a copy: other threads may cache meanwhile
         if not isinstance(getattr_static(type(x), name, None), (cached_property, functools.cached_property)):
             state[name] = value
     return sorted(state.items())
