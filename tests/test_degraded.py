@@ -17,7 +17,7 @@ from holdfast.failures import Degraded
 
 # Public callables with ``locked=`` that take no Degraded, and why.
 OTHERS = {
-    "reach_claim": "asks of an interval, anywhere in which one joint locks",
+    **dict.fromkeys(("reach_claim", "ReachClaim"), "an interval, anywhere in which one joint locks"),
     "assess": "asks of each joint alone, as if it locked: nothing is known to have failed",
     "Degraded": "is itself",
     "StationaryPoints": "a result, of indices",
