@@ -36,7 +36,7 @@ exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
-    (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent)\..*"),
+    (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent|fractions)\..*"),
     (
         r"py:.*",
         r"(Array|ArrayLike|CellLike|KeepLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
