@@ -49,8 +49,8 @@ class Score:
         proved, argued: Cases that the planner says are infeasible, with a proof or without.
         undecided: The others.
         feasible: Cases that :func:`holdfast.recover` did not prove infeasible, of those that it was asked too.
-        contradictions: Cases solved that :func:`holdfast.recover` proved infeasible: the proof is about the exact pose, the judge
-            accepts 1 mm and 0.5 deg, so only a pose that is missed by less may be among them.
+        contradictions: Cases solved that :func:`holdfast.recover` proved infeasible: the proof is about the exact pose, and
+            the judge accepts 1 mm and 0.5 deg, so only a pose that is missed by less may be among them.
         seconds: (cases,) measured.
     """
 
