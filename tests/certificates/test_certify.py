@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, verifier
+from holdfast.certificates.proof import per_cent
 from holdfast.certificates.taylor import Chain, Form, Reach
 from holdfast.errors import InputError
 
@@ -160,11 +161,38 @@ def test_a_time_limit_leaves_the_rest_undecided(panda):
         ({"locked": {"panda_joint4": (-4.0, -2.0)}}, "outside of its limits"),
         ({"locked": {"panda_joint4": (-2, -1), "panda_joint1": (0, 1)}}, "one, or none"),
         ({"limits": {"panda_joint1": (-9.0, 0.0)}}, "outside of its limits"),
+        ({"locked": {"panda_joint4": (-2.5, -1.0)}, "limits": {"panda_joint4": (-2.0, -1.5)}}, "beyond the limits"),
     ],
 )
 def test_what_makes_no_claim(panda, change, sentence):
     with pytest.raises(InputError, match=sentence):
         reach_claim(panda, **({"centre": (0.5, 0, 0.5), "size": 0.1} | change))
+
+
+def test_limits_of_the_joint_that_locks_are_kept(panda):
+    claim = reach_claim(
+        panda,
+        (0.5, 0, 0.5),
+        0.1,
+        locked={"panda_joint4": (-2, -1.9)},
+        limits={"panda_joint4": (-2.5, -1.5), "panda_joint1": (-1, 1)},
+    )
+    np.testing.assert_array_equal(claim.limits[[0, 3]], [[-1, 1], [-2.5, -1.5]])
+
+
+@pytest.mark.parametrize(
+    ("part", "down", "up"),
+    [
+        (Fraction(0), "0 %", "0 %"),
+        (Fraction(1), "100 %", "100 %"),
+        (Fraction(2, 3), "66.666666 %", "66.666667 %"),
+        (Fraction(1, 2**16), "0.0015 %", "0.0016 %"),
+        (1 - Fraction(1, 2**10), "99.902343 %", "99.902344 %"),
+        (1 - Fraction(1, 2**40), "99.999999 %", "all but 9.0e-11 %"),
+    ],
+)
+def test_what_is_proved_is_never_rounded_up(part, down, up):
+    assert (per_cent(part), per_cent(part, up=True)) == (down, up)
 
 
 def test_what_is_refused(panda, three, mixed5, tmp_path):

@@ -77,7 +77,10 @@ def reach_claim(
             raise InputError(f"{len(locked)} joints are given as locked; a certificate is about one, or none")
         ((joint, pair),) = locked.items()
         which, angle = arm.joint_index(joint), _within(arm, joint, pair)
-        kept[which] = arm.lower[which], arm.upper[which]
+        if angle[0] < kept[which, 0] or angle[1] > kept[which, 1]:
+            raise InputError(
+                f"{arm.joint_names[which]} may lock beyond the limits that are given for it; widen these, or leave them out"
+            )
     rows = len(middle)
     if arm.n - len(locked or ()) < rows:
         raise InputError(f"{arm.n - len(locked or ())} joints are left for {rows} rows: no box can be reached")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import zlib
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from pathlib import Path
 from time import monotonic, perf_counter
@@ -25,8 +27,6 @@ from holdfast.errors import InputError
 from holdfast.files.output import replaced
 from holdfast.notice import says
 from holdfast.result import Result
-
-MOST_CELLS = 1e8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,8 +73,8 @@ class Proof(Result):
         spent = "" if self.finished else "; the time limit was spent before the smallest cells were reached"
         return [
             self.document["claim"],
-            f"Found by the prover, not yet verified: proved {per_cent(self.proved)}, undecided {per_cent(self.undecided)}"
-            f"{spent}.",
+            f"Found by the prover, not yet verified: proved {per_cent(self.proved)}, "
+            f"undecided {per_cent(self.undecided, up=True)}{spent}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
@@ -128,7 +128,7 @@ def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = 
         :func:`check_certificate`, or without holdfast; see the explanation of certificates.
 
     Raises:
-        InputError: A number out of range, or a box that would take more than 1e8 cells.
+        InputError: A number out of range, or a box that would take more than 2^24 cells.
     """
     if not isinstance(claim, ReachClaim):
         raise InputError("claim must come from holdfast.certificates.reach_claim")
@@ -142,7 +142,7 @@ def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = 
     root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
     search = Search(Reach(chain, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed)
     cells = search.estimate()
-    if MOST_CELLS < cells < np.inf:
+    if verifier.MOST_LEAVES < cells < np.inf:
         raise InputError(
             f"single configurations prove so little of this box that it would take some {cells:.0e} cells; "
             "a smaller box or a narrower interval of the lock takes fewer"
@@ -220,14 +220,21 @@ def check_certificate(file: str | Path, *, sample: int | None = None, workers: i
     )
 
 
-def per_cent(part: Fraction) -> str:
-    """A share in per cent, never rounded up to the whole or down to nothing."""
+def per_cent(part: Fraction, up: bool = False) -> str:
+    """A share in per cent, rounded down, or up: what is proved is never said to be more, what is undecided never less."""
     if part in (0, 1):
         return f"{100 * int(part)} %"
-    text = f"{float(100 * part):.6f}"
-    if float(text) in (0.0, 100.0) or part < Fraction(1, 10_000):
-        return f"{float(100 * part):.2g} %" if part < Fraction(1, 2) else f"all but {float(100 * (1 - part)):.2g} %"
-    return f"{text} %"
+    if part < Fraction(1, 10_000):
+        return f"{_two_digits(100 * part, up):g} %"
+    millionths = math.ceil(part * 10**8) if up else math.floor(part * 10**8)
+    if millionths == 10**8:
+        return f"all but {_two_digits(100 * (1 - part), False):g} %"
+    return f"{millionths // 10**6}.{millionths % 10**6:06d} %"
+
+
+def _two_digits(x: Fraction, up: bool) -> Decimal:
+    """The decimal of two digits above or below."""
+    return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
 def _stored(names: tuple[str, ...], chain: Chain, limits: NDArray[np.float64]) -> dict[str, Any]:

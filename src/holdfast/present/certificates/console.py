@@ -36,9 +36,13 @@ def tables(found: Proof | CertificateCheck) -> list[Rows]:
 def key_table(found: Proof | CertificateCheck) -> Rows:
     """Shares and cells."""
     if isinstance(found, Proof):
-        rows = [["proved, not yet verified", per_cent(found.proved)], ["undecided", per_cent(found.undecided)]]
+        rows = [["proved, not yet verified", per_cent(found.proved)], ["undecided", per_cent(found.undecided, up=True)]]
         return Rows(["", ""], [*rows, ["cells proved", f"{found.leaves:,}"], ["cells looked at", f"{found.nodes:,}"]])
-    rows = [["accepted", f"{found.accepted:,}"], ["rejected", f"{found.rejected:,}"], ["undecided", per_cent(found.undecided)]]
+    rows = [
+        ["accepted", f"{found.accepted:,}"],
+        ["rejected", f"{found.rejected:,}"],
+        ["undecided", per_cent(found.undecided, up=True)],
+    ]
     return Rows(["", ""], rows)
 
 
