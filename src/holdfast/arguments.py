@@ -187,7 +187,20 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
 }
 _CLASSES = (
     *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "Degraded", "DesignSpace", "FailureRates", "Index", "Joint"),
-    *("Kept", "Law", "Link", "Objective", "Parameter", "Places", "Region", "Servos", "Task", "TimedPath", "Trajectory"),
+    *(
+        "Kept",
+        "Law",
+        "Link",
+        "Objective",
+        "Parameter",
+        "Places",
+        "ReachClaim",
+        "Region",
+        "Servos",
+        "Task",
+        "TimedPath",
+        "Trajectory",
+    ),
 )
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import base64
 import json
-import math
 import zlib
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from pathlib import Path
 from time import monotonic, perf_counter
@@ -73,8 +71,8 @@ class Proof(Result):
         spent = "" if self.finished else "; the time limit was spent before the smallest cells were reached"
         return [
             self.document["claim"],
-            f"Found by the prover, not yet verified: proved {per_cent(self.proved)}, "
-            f"undecided {per_cent(self.undecided, up=True)}{spent}.",
+            f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)}, "
+            f"undecided {verifier.per_cent(self.undecided, up=True)}{spent}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
@@ -130,10 +128,8 @@ def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = 
     Raises:
         InputError: A number out of range, or a box that would take more than 2^24 cells.
     """
-    if not isinstance(claim, ReachClaim):
-        raise InputError("claim must come from holdfast.certificates.reach_claim")
-    if not 0 <= halvings <= 20 or seed < 0:
-        raise InputError("halvings must be from 0 to 20 and the seed 0 or more")
+    if not 0 <= halvings <= 20:
+        raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
     began, until = perf_counter(), np.inf if time_limit is None else monotonic() + time_limit
@@ -152,15 +148,14 @@ def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = 
     seconds = perf_counter() - began
     tree, centres = search.tree.in_order()
     rows = np.array(centres, dtype="<i4").reshape(-1, arm.n)
-    names = ["planar", "xy"] if claim.task == "planar" else ["position", "xyz"]
     document: dict[str, Any] = {
         "format": "holdfast-certificate",
         "version": 1,
         "kind": "reach",
         "arm": _stored(arm.joint_names, chain, np.column_stack([arm.lower, arm.upper])),
         "source": {"name": arm.name},
-        "task": names[0],
-        "target": {"axes": names[1], "box": _hexes(claim.box), "orientation": None},
+        "task": claim.task,
+        "target": {"axes": "xyz"[: ROWS[claim.task]], "box": _hexes(claim.box), "orientation": None},
         "locked": claim.locked,
         "angle": None if claim.angle is None else _hexes(claim.angle),
         "limits": _hexes(claim.limits),
@@ -218,23 +213,6 @@ def check_certificate(file: str | Path, *, sample: int | None = None, workers: i
         seconds=found.seconds,
         said=found.sentence,
     )
-
-
-def per_cent(part: Fraction, up: bool = False) -> str:
-    """A share in per cent, rounded down, or up: what is proved is never said to be more, what is undecided never less."""
-    if part in (0, 1):
-        return f"{100 * int(part)} %"
-    if part < Fraction(1, 10_000):
-        return f"{_two_digits(100 * part, up):g} %"
-    millionths = math.ceil(part * 10**8) if up else math.floor(part * 10**8)
-    if millionths == 10**8:
-        return f"all but {_two_digits(100 * (1 - part), False):g} %"
-    return f"{millionths // 10**6}.{millionths % 10**6:06d} %"
-
-
-def _two_digits(x: Fraction, up: bool) -> Decimal:
-    """The decimal of two digits above or below."""
-    return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
 def _stored(names: tuple[str, ...], chain: Chain, limits: NDArray[np.float64]) -> dict[str, Any]:

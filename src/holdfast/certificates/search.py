@@ -121,7 +121,7 @@ class Search:
         if not len(self.pool):
             return float("inf")
         some = self.rng.permutation(len(self.pool))[:_POOL]
-        # By how much a cell of 1/1024 of the root may grow, to two powers of ten and a half.
+        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024.
         form, half = Form.at(self.reach, self.pool[some], self._pool_at[some]), self.width / 2
         sizes = np.array([2.0**-k for k in range(11)])
         best = np.full(len(some), sizes[-1] / 2)
@@ -163,31 +163,13 @@ class Search:
         scale = 0.5 ** (cells.depth + 1)
         half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
         q, found, part = self._tried(cells.q, centre, half)
-        smallest = (cells.depth >= self.halvings)[:, self.width > 0].all(axis=1)
-        several = np.flatnonzero(~found & ((part < _HOPELESS) | smallest))
-        count = min(_NEAR[1], len(self.pool)) if several.size else 0
-        near = np.zeros((len(q), count), dtype=np.intp)
-        if self._near is not None and count:
-            found_near = self._near.query(centre[several] / self._unit, k=np.arange(1, count + 1), p=np.inf)
-            near[several] = found_near[1]
-        for k in range(count):
-            # Others have much to prove still; of the smallest, all are tried.
-            which = np.flatnonzero(~found & ((part < _HOPELESS) & (k < _NEAR[0]) | smallest))
-            which = np.intersect1d(which, several)
-            if which.size:
-                self._improve(q, found, part, which, self.pool[near[which, k]], centre, half)
-        for _ in range(_STEPS if self.reach.free.sum() > self.reach.m else 0):
-            which = np.flatnonzero(~found & ((part > 0.5) | smallest))
-            if not which.size:
-                break
-            jacobians = self.reach.first(q[which])[1]
-            move = self.rng.normal(size=(len(which), self.reach.n)) * self.reach.free
-            move -= (self.reach.inverse(jacobians, 1e-12) @ (jacobians @ move[:, :, None]))[:, :, 0]
-            move *= (self.rng.uniform(0, _STRIDE, len(which)) / np.maximum(np.abs(move).max(axis=1), 1e-9))[:, None]
-            self._improve(q, found, part, which, q[which] + move, centre, half)
-        for name, place in zip(cells.name[found], np.round(q[found] / UNIT).astype(np.int64), strict=True):
-            place[self.reach.locked :][: self.reach.locked >= 0] = 0
-            self.tree.token[name], self.tree.centre[int(name)] = PROVED, place
+        smallest = np.asarray((cells.depth >= self.halvings)[:, self.width > 0].all(axis=1))
+        self._from_pool(q, found, part, smallest, centre, half)
+        self._along_self_motions(q, found, part, smallest, centre, half)
+        places = np.round(q / UNIT).astype(np.int64)
+        places[:, ~self.reach.free] = 0
+        for k in np.flatnonzero(found):
+            self.tree.token[cells.name[k]], self.tree.centre[int(cells.name[k])] = PROVED, places[k]
         # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
         off = np.linalg.norm(self.reach.first(q)[0] - centre[:, : self.reach.m], axis=1)
         turn = half[:, self.reach.m :].sum(axis=1) * self.reach.chain.lengths.sum()
@@ -201,6 +183,30 @@ class Search:
         place[rows, twice] = 2 * place[rows, twice] + rows % 2
         depth[rows, twice] += 1
         return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(q, 2, axis=0))
+
+    def _from_pool(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
+        """In place: cells of which little is proved try the nearest of the pool, the smallest more of them."""
+        some = np.flatnonzero(~found & ((part < _HOPELESS) | smallest))
+        if self._near is None or not some.size:
+            return
+        count = min(_NEAR[1], len(self.pool))
+        near = np.asarray(self._near.query(centre[some] / self._unit, k=np.arange(1, count + 1), p=np.inf)[1])
+        for k in range(count):
+            still = ~found[some] & ((part[some] < _HOPELESS) & (k < _NEAR[0]) | smallest[some])
+            if still.any():
+                self._improve(q, found, part, some[still], self.pool[near[still, k]], centre, half)
+
+    def _along_self_motions(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
+        """In place: cells that are nearly proved, and the smallest, try configurations on the self-motions of theirs."""
+        for _ in range(_STEPS if self.reach.free.sum() > self.reach.m else 0):
+            which = np.flatnonzero(~found & ((part > 0.5) | smallest))
+            if not which.size:
+                break
+            jacobians = self.reach.first(q[which])[1]
+            move = self.rng.normal(size=(len(which), self.reach.n)) * self.reach.free
+            move -= (self.reach.inverse(jacobians, 1e-12) @ (jacobians @ move[:, :, None]))[:, :, 0]
+            move *= (self.rng.uniform(0, _STRIDE, len(which)) / np.maximum(np.abs(move).max(axis=1), 1e-9))[:, None]
+            self._improve(q, found, part, which, q[which] + move, centre, half)
 
     def _improve(
         self, q: Array, found: Flags, part: Array, which: NDArray[np.intp], begin: Array, centre: Array, half: Array

@@ -60,7 +60,7 @@ class Chain:
         return cls(rotations, origins, np.array(links))
 
     def followed(self, q: Array) -> tuple[Array, Array, Array]:
-        """Tool points (N, 3), axes (N, n, 3) and points on them (N, n, 3), m, at q (N, n)."""
+        """Tool points (N, 3), axes (N, n, 3) and how the tool point moves about each of them (N, n, 3), m, at q (N, n)."""
         tip, turn, axes, points = np.zeros((len(q), 3)), np.broadcast_to(np.eye(3), (len(q), 3, 3)), [], []
         for k in range(q.shape[1]):
             tip, turn = tip + turn @ self.origins[k], turn @ self.rotations[k]
@@ -69,7 +69,8 @@ class Chain:
             sine, cosine = np.sin(q[:, k])[:, None], np.cos(q[:, k])[:, None]
             x, y = turn[:, :, 0], turn[:, :, 1]
             turn = np.stack([cosine * x + sine * y, cosine * y - sine * x, turn[:, :, 2]], axis=2)
-        return tip + turn @ self.origins[-1], np.stack(axes, axis=1), np.stack(points, axis=1)
+        tip, turned = tip + turn @ self.origins[-1], np.stack(axes, axis=1)
+        return tip, turned, np.cross(turned, tip[:, None] - np.stack(points, axis=1))
 
 
 class Reach:
@@ -89,8 +90,8 @@ class Reach:
 
     def first(self, q: Array) -> tuple[Array, Array]:
         """Tool coordinates (N, m) and Jacobians (N, m, n)."""
-        tip, axes, points = self.chain.followed(q)
-        return tip[:, : self.m], np.cross(axes, tip[:, None] - points).transpose(0, 2, 1)[:, : self.m]
+        tip, _, columns = self.chain.followed(q)
+        return tip[:, : self.m], columns.transpose(0, 2, 1)[:, : self.m]
 
     def inverse(self, jacobians: Array, damping: float = 0.0) -> Array:
         """(N, n, m) pseudo-inverses on the free joints."""
@@ -140,8 +141,7 @@ class Form:
     def at(cls, reach: Reach, q: Array, targets: Array) -> Form:
         """Around q (N, n) for targets (N, m) in the middle."""
         m, fixed = reach.m, reach.locked >= 0
-        tip, axes, points = reach.chain.followed(q)
-        columns = np.cross(axes, tip[:, None] - points)
+        tip, axes, columns = reach.chain.followed(q)
         jacobians = columns.transpose(0, 2, 1)[:, :m]
         inverse = np.nan_to_num(reach.inverse(jacobians))
         section = np.zeros((len(q), reach.n, 2 * m + fixed))
@@ -154,8 +154,8 @@ class Form:
         slope[:, np.arange(m), m + fixed + np.arange(m)] -= 1.0
         # The second derivative by joint j and a later k is z_j x J_k.
         outer = np.cross(axes[:, :, None], columns[:, None])[..., :m]
-        earlier = np.triu(np.ones((reach.n, reach.n)))[..., None]
-        second = outer * earlier + (outer * np.triu(np.ones((reach.n, reach.n)), 1)[..., None]).transpose(0, 2, 1, 3)
+        upper = np.triu(np.ones((reach.n, reach.n)))[..., None]
+        second = outer * upper + (outer * (1 - upper.transpose(1, 0, 2))).transpose(0, 2, 1, 3)
         forms = section.transpose(0, 2, 1)[:, None] @ second.transpose(0, 3, 1, 2) @ section[:, None]
         pure = np.diagonal(forms, axis1=2, axis2=3)
         mixed = np.abs(np.triu(forms, 1))

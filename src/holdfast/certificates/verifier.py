@@ -22,6 +22,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import islice
 from multiprocessing import get_context
@@ -199,6 +200,23 @@ def cells(tree: bytes, axes: int) -> Iterator[tuple[int, Cell]]:
 def volume(parts: Iterable[Cell]) -> Fraction:
     """What part of the root box cells are."""
     return sum((Fraction(1, 1 << sum(d for _, d in cell)) for cell in parts), Fraction(0))
+
+
+def per_cent(part: Fraction, up: bool = False) -> str:
+    """A share in per cent, rounded down, or up: what is proved is never said to be more, what is undecided never less."""
+    if part in (0, 1):
+        return f"{100 * int(part)} %"
+    if part < Fraction(1, 10_000):
+        return f"{_two_digits(100 * part, up):g} %"
+    millionths = math.ceil(part * 10**8) if up else math.floor(part * 10**8)
+    if millionths == 10**8:
+        return f"all but {_two_digits(100 * (1 - part), False):g} %"
+    return f"{millionths // 10**6}.{millionths % 10**6:06d} %"
+
+
+def _two_digits(x: Fraction, up: bool) -> Decimal:
+    """The decimal of two digits above or below."""
+    return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
 def _above(ball: Any) -> float:
@@ -391,15 +409,10 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """What was found, for people: never rounded up to the whole or down to nothing."""
-        parts = (1 - self.undecided, self.undecided, self.tolerant)
-        exact = [0.01 < x < 1 for x in parts]
-        said = [
-            f"{math.floor(10**8 * x) / 10**6:.6f} %" if some else f"{float(100 * x):.3g} %"
-            for x, some in zip(parts, exact, strict=True)
-        ]
-        text = f"Proved: {said[0]}, undecided: {said[1]}{' in the worst part' * bool(self.parts)}"
+        text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
+        text += " in the worst part" * bool(self.parts)
         if self.document.get("locked") != -1:
-            text += f"; wherever the lock, at least {said[2]} of the targets"
+            text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
 

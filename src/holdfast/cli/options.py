@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from holdfast.failures import Degraded
     from holdfast.indices.objective import Objective
 
+NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
+
 ArmArgument = Annotated[
     str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
 ]

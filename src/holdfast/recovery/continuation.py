@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
 from holdfast.notice import each
-from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too
+from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too, met_from
 from holdfast.recovery.layers import JUMP, through_layers
 from holdfast.recovery.rows import RowSolver, preferred, subsets
 from holdfast.recovery.space import Metric, Space
@@ -152,10 +152,7 @@ def _all_reached(
 
 def _reached(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator, starts: int = 15) -> bool:
     begin = np.concatenate([at[None], solver.starts(starts, at, space.free, rng)])
-    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
-    q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
-    good = solver.meets(q, poses, kept, space.free)
-    return bool(good.any() and space.clear(q[good]).any())
+    return len(met_from(solver, space, pose, begin)) > 0
 
 
 def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: Array) -> tuple[Array, NDArray[np.int64]]:

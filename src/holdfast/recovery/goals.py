@@ -61,12 +61,9 @@ def configurations_of(
 
     From random starts and from ``at``; each is then moved along the self-motion of the pose towards ``at``.
     """
-    begin = np.concatenate([at[None], solver.starts(starts, at, space.free, rng)])
-    poses = np.repeat(pose[None], len(begin), axis=0)
-    kept = np.ones((len(begin), solver.rows.m))
-    q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
-    q = q[_good(solver, space, q, poses, kept)]
+    q = met_from(solver, space, pose, np.concatenate([at[None], solver.starts(starts, at, space.free, rng)]))
     q = at + space.difference(q, at)
+    poses, kept = np.repeat(pose[None], len(q), axis=0), np.ones((len(q), solver.rows.m))
     moving = np.arange(len(q))
     for _ in range(_SLIDES):
         some = q[moving]
@@ -79,6 +76,13 @@ def configurations_of(
         if not moving.size:
             break
     return _distinct(q[np.argsort(metric.length(q - at), kind="stable")])
+
+
+def met_from(solver: RowSolver, space: Space, pose: Array, begin: Array) -> Array:
+    """Clear configurations (K, n) that meet every row of a pose (4, 4), from starts (N, n)."""
+    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
+    q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
+    return np.asarray(q[_good(solver, space, q, poses, kept)])
 
 
 def kept_too(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.notice import each
-from holdfast.recovery.goals import kept_too
+from holdfast.recovery.goals import kept_too, met_from
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Metric, Space
 
@@ -55,10 +55,7 @@ def through_layers(
     Of the many of a pose those are kept that are spread widest: a motion through a passage that is narrower than their
     distance may be missed.
     """
-    begin, pose = solver.starts(starts, at, space.free, rng), np.repeat(poses[:1], starts, axis=0)
-    begin, good = _met(solver, space, begin, pose, None)
-    begin = begin[good]
-    first = np.concatenate([first, begin[space.clear(begin)]])
+    first = np.concatenate([first, met_from(solver, space, poses[0], solver.starts(starts, at, space.free, rng))])
     first = at + space.difference(first, at)
     some = _spread(first, metric.length(first - at))
     layers, came = [first[some]], [np.arange(len(some))]
@@ -93,12 +90,11 @@ def through_layers(
     return Graph(list(motions.values()), len(poses) - 1, size)
 
 
-def _met(solver: RowSolver, space: Space, q: Array, poses: Array, before: Array | None) -> tuple[Array, Flags]:
+def _met(solver: RowSolver, space: Space, q: Array, poses: Array, before: Array) -> tuple[Array, Flags]:
     """From starts q (N, n): configurations of poses (N, 4, 4), and which of them are met and one step from ``before``."""
     kept = np.ones((len(q), solver.rows.m))
     after = kept_too(solver, space, solver.run(q, poses, kept, space.free), poses, kept)
-    near = before is None or np.abs(after - before).max(axis=1) <= JUMP
-    return after, solver.meets(after, poses, kept, space.free) & near
+    return after, solver.meets(after, poses, kept, space.free) & (np.abs(after - before).max(axis=1) <= JUMP)
 
 
 def _spread(q: Array, cost: Array, most: int = _MOST) -> Index:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
 import holdfast as hf
 from holdfast.cli.options import (
+    NOT_MET,
     ArmArgument,
     BaseOption,
     HoldOption,
@@ -17,26 +17,24 @@ from holdfast.cli.options import (
     SeedOption,
     TipOption,
     read_arm,
-    read_joint,
+    read_by_joint,
     read_numbers,
 )
 from holdfast.errors import InputError
 from holdfast.present.results import printed
 
-UNDECIDED, REJECTED = 3, 1
+REJECTED = 1  # exit code
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
 
 command = typer.Typer(
     name="certify",
     help="Prove that an arm reaches every target of a box, and write a certificate.",
     no_args_is_help=True,
-    context_settings={"help_option_names": ["-h", "--help"]},
 )
 certificate = typer.Typer(
     name="certificate",
     help="Check certificates, by code that shares nothing with what made them.",
     no_args_is_help=True,
-    context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 
@@ -75,13 +73,12 @@ def reach(
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
     model = read_arm(arm, base, tip, hold)
-    locks = [] if lock is None else [lock]
     claim = hf.certificates.reach_claim(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
-        locked=_intervals(model, locks, degrees) or None,
-        limits=_intervals(model, limit or [], degrees),
+        locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
+        limits=_intervals(model, "--limit", limit or [], degrees),
     )
     proof = hf.certify(claim, halvings=halvings, time_limit=time_limit, seed=seed)
     file = proof.write(out)
@@ -90,7 +87,7 @@ def reach(
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
     if not proof.ok:
-        raise typer.Exit(UNDECIDED)
+        raise typer.Exit(NOT_MET)
 
 
 @certificate.command()
@@ -131,19 +128,17 @@ def show(file: FileArgument) -> None:
     typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
 
 
-def _intervals(arm: hf.Arm, texts: list[str], degrees: bool) -> dict[str | int, tuple[float, float]]:
+def _intervals(arm: hf.Arm, option: str, texts: list[str], degrees: bool) -> dict[str | int, tuple[float, float]]:
     """``JOINT=LOW..HIGH`` as numbers, rad."""
-    found: dict[str | int, tuple[float, float]] = {}
+    ends: tuple[list[str], list[str]] = [], []
     for text in texts:
-        name, equals, span = text.partition("=")
+        joint, _, span = text.rpartition("=")
         low, dots, high = span.partition("..")
-        try:
-            pair = float(low), float(high)
-        except ValueError:
-            pair = None
-        if not equals or not dots or pair is None:
-            raise InputError(f"'{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5")
-        found[arm.joint_names[read_joint(arm, name)]] = (
-            (float(np.deg2rad(pair[0])), float(np.deg2rad(pair[1]))) if degrees else pair
-        )
-    return found
+        if not dots:
+            raise InputError(
+                f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
+            )
+        for end, value in zip(ends, (low, high), strict=True):
+            end.append(f"{joint}={value}")
+    lows, highs = (read_by_joint(arm, end, option, degrees) for end in ends)
+    return {name: (lows[name], highs[name]) for name in lows}

@@ -11,6 +11,7 @@ import typer
 import holdfast as hf
 from holdfast.cli import clearance as apart
 from holdfast.cli.options import (
+    NOT_MET,
     TASK_HELP,
     ArmArgument,
     BaseOption,
@@ -32,8 +33,6 @@ from holdfast.present.results import printed, said
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-
-NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
 
 
 def command(

@@ -21,7 +21,6 @@ command = typer.Typer(
     name="study",
     help="Sweeps of arms, indices, regions and laws that survive crashes and spread over machines.",
     no_args_is_help=True,
-    context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.", show_default=False)]

@@ -8,14 +8,13 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import BaseOption, HoldOption, JsonOption, OutOption, TipOption, read_arm
+from holdfast.cli.options import NOT_MET, BaseOption, HoldOption, JsonOption, OutOption, TipOption, read_arm
 from holdfast.present.results import drawn, printed
 
 command = typer.Typer(
     name="cell",
     help="The objects around an arm: what they touch, and how sharply they are seen.",
     no_args_is_help=True,
-    context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 
@@ -37,8 +36,6 @@ def check(
 
     Example: holdfast cell check bench.yaml --arm panda
     """
-    from holdfast.cli.known.recover import NOT_MET
-
     found = hf.check_cell(file, None if arm is None else read_arm(arm, base, tip, hold))
     printed(found, json_, drawn(found, None, out))
     if not found.ok:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from holdfast.certificates.proof import CertificateCheck, Proof, per_cent
+from holdfast.certificates.proof import CertificateCheck, Proof
+from holdfast.certificates.verifier import per_cent
 from holdfast.present.printing import Rows
 
 
