@@ -27,6 +27,9 @@ pytest_plugins = ["slow", "workers"]
 
 _DRAW = 20120831
 _MADE: list[str] = []
+# Every kind of page is drawn in these.
+PAGES = ("tests/report/", "tests/present/", "tests/assessment/", "tests/teleop/test_analysis.py", "tests/test_papers")
+_LAID_OUT = [True]
 
 
 def pytest_addoption(parser):
@@ -51,6 +54,26 @@ def pytest_configure(config):
     os.environ["_TYPER_FORCE_DISABLE_TERMINAL"] = "1"  # colours where tests run as a job of GitHub
     for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS", "COLUMNS", "FORCE_COLOR", "TERMINAL_WIDTH", "TTY_COMPATIBLE"):
         os.environ.pop(name, None)
+    _lay_out_where_pages_are_the_subject()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item):
+    # Matplotlib takes as long to lay a figure out as to draw it; where pages are not the subject nobody looks at the layout.
+    _LAID_OUT[:] = [item.nodeid.startswith(PAGES)]
+    return (yield)
+
+
+def _lay_out_where_pages_are_the_subject() -> None:
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    whole = ConstrainedLayoutEngine.execute
+
+    def execute(engine, figure):
+        if _LAID_OUT[0]:
+            whole(engine, figure)
+
+    ConstrainedLayoutEngine.execute = execute
 
 
 @pytest.hookimpl(wrapper=True)

@@ -112,7 +112,7 @@ def planar(arm, size):
 
 
 @pytest.mark.interpreted
-@pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
+@pytest.mark.parametrize("size", [EXACT[1], ROUNDED[0]])
 def test_cycles_and_the_least_error(links, rng, size):
     q0, x = rng.uniform(-2, 2, (6, 3)), rng.uniform(-4, 4, (6, 2))
     own, other = (

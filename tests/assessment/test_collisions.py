@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -149,9 +150,14 @@ def test_a_folder_from_before_there_was_a_clearance_still_loads(arm, call, tmp_p
     assert "Not checked" in back.report(tmp_path / "old.html").read_text()
 
 
+@pytest.fixture(scope="module")
+def saved(run, tmp_path_factory):
+    return run.save(tmp_path_factory.mktemp("saved") / "run")[0].parent
+
+
 @pytest.mark.parametrize("name", ["clearance", "blocked", "optimised_status"])
-def test_a_lost_column_is_named(name, run, tmp_path):
-    folder = run.save(tmp_path / "run")[0].parent
+def test_a_lost_column_is_named(name, saved, tmp_path):
+    folder = shutil.copytree(saved, tmp_path / "run")
     for p in (folder / "samples.zarr" / name / "c").rglob("*"):
         if p.is_file():
             p.unlink()

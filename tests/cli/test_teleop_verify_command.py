@@ -11,7 +11,7 @@ import flips
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.verification import verify
 
-BITS = int(os.environ.get("HOLDFAST_FLIPS", "400"))
+BITS = int(os.environ.get("HOLDFAST_FLIPS", "240"))
 
 
 @pytest.fixture(scope="module")

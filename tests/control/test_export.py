@@ -80,20 +80,6 @@ def test_what_has_no_answer_stops_the_arm(tmp_path):
         np.testing.assert_array_equal(rates, 0)
 
 
-@needs_compiler
-def test_seven_joints_and_a_pose(rng, tmp_path, monkeypatch):
-    """The longest law there is; unoptimised, as the compiler takes long for 29,000 operations."""
-    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
-    law = hf.control.failure_tolerant(damping_oracle.arm_7r(), "pose")
-    call = compiled(*list(law.export_c(tmp_path, "seven"))[:2], 6, 7, 3, "-O0")
-    q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 6))
-    for a, b, rates, damping in zip(q, v, law.velocity(q, v), law.damping(q, v), strict=True):
-        code, got, told = call(a, b)
-        assert code == 0
-        np.testing.assert_allclose(got, rates, rtol=1e-12, atol=1e-12 * np.abs(rates).max())
-        assert told[0] == pytest.approx(damping, rel=1e-12)
-
-
 def pinocchio_jacobian(task):
     """The task Jacobian of the Panda's flange by Pinocchio, in the frame of the task."""
     file = str(DATA.joinpath("panda.urdf"))

@@ -235,11 +235,6 @@ def test_arrows_that_others_imply_or_that_point_up_are_left_out():
     assert picture.arrows(imports, ["a", "b", "c"]) == {("a", "b"), ("b", "c")}
 
 
-def test_contributing_shows_the_packages_as_they_are():
-    page = picture.PAGE.read_text(encoding="utf-8")
-    assert page == picture.put(page, picture.picture(ratchet.source())), "run `python -m tools.house --picture`"
-
-
 OFFERED = {
     "__init__.py": "",
     "__init__.pyi": "from holdfast import plain as plain\nfrom holdfast.p import thing as thing",

@@ -37,6 +37,14 @@ def studio():
         page.stop()
 
 
+# Scenes are drawn by the processor, whether or not anything moves: sixty times a second they keep one busy.
+FEW_FRAMES = """
+const whole = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => window.setTimeout(() => whole(draw), 250);
+window.cancelAnimationFrame = window.clearTimeout.bind(window);
+"""
+
+
 @pytest.fixture
 def visit(browser):
     """``visit(studio)``: a page that has opened it, and the window behind that page."""
@@ -46,6 +54,7 @@ def visit(browser):
         before = set(served.windows)
         context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **options)
         contexts.append(context)
+        context.add_init_script(FEW_FRAMES)
         page = context.new_page()
         page.set_default_timeout(60_000)
         page.hosts = set()

@@ -1,11 +1,11 @@
-"""Command line: ``python -m tools.house [--tighten | --picture]``; exit code 1 if the lists do not say what there is."""
+"""Command line: ``python -m tools.house [--tighten | --picture]``; 1 if lists or picture do not say what there is."""
 
 from __future__ import annotations
 
 import sys
 
 from tools.house import picture
-from tools.house.ratchet import Lists, counted
+from tools.house.ratchet import Lists, counted, source
 
 
 def main(arguments: list[str]) -> int:
@@ -17,6 +17,10 @@ def main(arguments: list[str]) -> int:
         print(__doc__)
         return 2
     count, lists = counted(), Lists.load()
+    page = picture.PAGE.read_text(encoding="utf-8")
+    if page != picture.put(page, picture.picture(source())):
+        print(f"the picture in {picture.PAGE.name} is not that of the packages: run `python -m tools.house --picture`")
+        return 1
     if arguments:
         lists = lists.tightened(count)
         lists.save()

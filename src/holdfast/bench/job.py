@@ -16,8 +16,7 @@ from holdfast.arms.serial import from_dict
 from holdfast.bench import methods
 from holdfast.bench.cases import Case, Draw
 from holdfast.bench.judge import trouble
-from holdfast.cell.cell import Cell
-from holdfast.clearance.choice import chosen_clearance
+from holdfast.clearance.choice import from_stored
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
 from holdfast.recovery.verdict import Answer
@@ -44,12 +43,12 @@ class FailActiveJob(PlannedJob[Draw]):
 
     def compiled(self) -> Draw:
         """What draws the cases, with what must be kept clear."""
-        arm, around = from_dict(self.plan["arm"]), self.plan["cell"]
-        return Draw(arm, chosen_clearance(arm, None, None if around is None else Cell.from_dict(around)))
+        arm = from_dict(self.plan["arm"])
+        return Draw(arm, from_stored(arm, self.plan))
 
     def case(self, seed: int, row: int) -> Case:
         """A case by its number: the same for every planner, whatever the chunks are."""
-        key = (zlib.crc32(str(self.plan["task"]).encode()), self.plan["cell"] is not None, row)
+        key = (zlib.crc32(str(self.plan["task"]).encode()), "cell" in self.plan, row)
         return self.made.case(self.plan["task"], np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key)))
 
     def columns(self) -> list[Column]:

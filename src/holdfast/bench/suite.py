@@ -19,7 +19,7 @@ from holdfast.bench import methods
 from holdfast.bench.cases import TASKS
 from holdfast.bench.job import VERDICTS, FailActiveJob, digest
 from holdfast.cell.cell import Cell, as_cell
-from holdfast.clearance.choice import CellLike
+from holdfast.clearance.choice import CellLike, chosen_clearance, stored
 from holdfast.engine.job import Cell as StudyCell
 from holdfast.engine.runner import Runner, Stop, Threads
 from holdfast.engine.study import Study
@@ -218,14 +218,15 @@ def fail_active(
 
 
 def _cell(arm: Arm, around: Cell | None, task: str, method: str, cases: int, seconds: float) -> StudyCell:
+    clearance = chosen_clearance(arm, None, around)
     plan = {
         "kind": NAME,
         "fingerprint": arm.fingerprint,
         "arm": to_dict(arm),
-        "cell": None if around is None else around.to_dict(),
         "task": task,
         "method": method,
         "seconds": seconds,
+        **({} if clearance is None else stored(clearance)),  # the arm's own shape too
     }
     labels = {"job": NAME, "arm": arm.name, "task": task, "method": method, "around": "" if around is None else around.name}
     rows = cases if task.startswith("reach") else max(cases // FEWER, 1)
