@@ -67,7 +67,8 @@ class Found:
     """What a search over all motions of the grid knows.
 
     Attributes:
-        bound: No motion of the grid survives more: at every instant the best node that lies on any motion along the path.
+        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
+            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
         interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
             exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
         spacing: Of the nodes, rad (and m).

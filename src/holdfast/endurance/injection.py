@@ -94,25 +94,25 @@ def _on_path(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
             fourth = _direction(problem, state + _STEP * third, lock, third, scale)
             state = state + _STEP / 6 * (first + 2 * second + 2 * third + fourth)
             tangent = fourth
-            here = state[:, :-1]
-            over = state[:, -1] >= _WHOLE
+            over = (state[:, -1] >= _WHOLE) & (fourth[:, -1] > 0)
+            # What has passed the end of the path is judged there, not where its step went.
+            back = np.where(over, (state[:, -1] - _WHOLE) / np.where(over, fourth[:, -1], 1.0), 0.0)
+            here = state[:, :-1] - back[:, None] * fourth[:, :-1]
             good = ((here >= arm.lower - 1e-9) & (here <= arm.upper + 1e-9)).all(axis=1) & (fourth[:, -1] > 0)
             if problem.kept is not None:
                 good &= problem.kept[0].room(here) >= problem.kept[1] - 1e-9
             ended = np.flatnonzero(over & good)
-            survived[left[ended]] = _on_last_pose(problem, here[ended], fourth[ended], state[ended, -1])
+            survived[left[ended]] = _on_last_pose(problem, here[ended])
             go_on = good & ~over
             tell(int(np.count_nonzero(~go_on)))
             left, state, tangent = left[go_on], state[go_on], tangent[go_on]
     return survived
 
 
-def _on_last_pose(problem: Problem, q: Array, tangent: Array, at: Array) -> Flags:
+def _on_last_pose(problem: Problem, q: Array) -> Flags:
     """Whether branches that have passed the end did so on the last pose."""
-    back = (at - _WHOLE) / tangent[:, -1]
-    ends = q - back[:, None] * tangent[:, :-1]
     last = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
-    return np.asarray(np.max(solver(problem.arm, problem.task).errors(ends, last), axis=0, initial=0.0) <= _OFF)
+    return np.asarray(np.max(solver(problem.arm, problem.task).errors(q, last), axis=0, initial=0.0) <= _OFF)
 
 
 def _direction(problem: Problem, state: Array, lock: Index, before: Array, scale: float) -> Array:

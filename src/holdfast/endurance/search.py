@@ -13,7 +13,7 @@ from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.choice import best_motions
+from holdfast.endurance.choice import Front, advanced
 from holdfast.endurance.comparison import beside
 from holdfast.endurance.endurance import Endurance, Found
 from holdfast.endurance.grid import Nodes, nodes_of
@@ -109,18 +109,18 @@ def endure(
     gains = [w * v.survives @ problem.rates.each for w, v in zip(weights, table, strict=True)]
     limit = np.array([j.velocity for j in arm.joints]) * float(np.diff(problem.time).max())
     whole = float(weights.sum()) * problem.rates.total
-    fronts = best_motions(arm, nodes, gains, limit, (0.0, spacing))
-    ended = fronts[1].ended
+    near = [w * v.most_near(x, problem.rates.each) for w, v, x in zip(weights, table, nodes, strict=True)]
+    fronts, bound = (Front(gains), Front(gains, spacing)), Front(near, spacing)
+    advanced(arm, nodes, limit, (*fronts, bound))
+    ended = bound.ended
     if ended is not None:
         raise HoldfastError(
             f"no continuous motion along the path was found: it ends at {problem.time[ended]:.4g} s; slow the path down, take "
             "more samples, or prescribe fewer rows"
         )
-    motions = [None if front.ended is not None else front.motion() for front in fronts]
-    gathered = [np.nan if m is None else sum(float(g[k]) for g, k in zip(gains, m, strict=True)) / whole for m in motions]
     known = Found(
-        bound=float(sum(g[some].max() for g, some in zip(gains, fronts[1].on_motions(), strict=True))) / whole,
-        interval=(gathered[0], gathered[1]),
+        bound=bound.most / whole,
+        interval=(fronts[0].most / whole, fronts[1].most / whole),
         spacing=spacing,
         nodes=[x.q for x in nodes],
         curve=[x.curve for x in nodes],
@@ -128,18 +128,24 @@ def endure(
         moved=np.max([np.ptp(c.q, axis=0) for each in found for c in each.components], axis=0),
     )
     results = []
-    for chosen, most in zip(motions, gathered, strict=True):
-        if chosen is None:
+    for front in fronts:
+        if front.ended is not None:
             continue
+        chosen = front.motion()
         q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
         smooth = smoothed(lock.tracer, nodes, table, gains, chosen, q, poses, held=start is not None)
         made = Endurance.of(problem, smooth, survives=problem.judge(smooth), found=known)
-        if made.survival < most - _ALIKE:  # smoothing has cost something
-            made = Endurance.of(problem, q, survives=problem.judge(q), found=known)
+        if made.survival < front.most / whole - _ALIKE or made.speed > 1 + _ALIKE:  # smoothing may have cost something
+            plain = Endurance.of(problem, q, survives=problem.judge(q), found=known)
+            made = max(made, plain, key=_goodness)
         results.append(made)
-    # What the joints can do comes first; of equals the first.
-    best = max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
+    best = max(results, key=_goodness)  # of equals the first
     return best if not compare else beside(problem, best, compare, seed)
+
+
+def _goodness(made: Endurance) -> tuple[bool, float]:
+    """What the joints can do comes first."""
+    return made.speed <= 1 + _ALIKE, round(made.survival, 9)
 
 
 def _begun(problem: Problem, start: ArrayLike) -> Array:
