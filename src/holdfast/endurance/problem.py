@@ -20,6 +20,7 @@ from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
 from holdfast.paths.timed_path import TimedPath
+from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.solvers.self_motions import SelfMotion, traced, tracer
 
@@ -32,6 +33,8 @@ Kind = Literal["exact", "upper bound", "lower bound"]
 ON = 1e-3  # m and rad that a configuration given may be off the path
 _IMMOBILE = 1e-9  # rad and m between the limits of a joint that does not move, or in a motion
 _SETS = 24  # of joints that a failed arm may hold
+_FIRST, _STARTS = 3, 64  # configurations of the first pose that are tried, of so many starts
+_COARSE, _FEWEST = 0.15, 11  # rad between nodes, and poses, of what is only tried
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -59,12 +62,14 @@ class Problem:
 
     @property
     def kind(self) -> Kind:
+        """What a verdict is."""
         if self.spare > 1:
             return "lower bound"
         return "upper bound" if self.mode == "detour" and self.kept is not None else "exact"
 
     @property
     def spare(self) -> int:
+        """Degrees of redundancy of the joints that can move."""
         return self.arm.n - self.task.m - len(self.immobile)
 
     @cached_property
@@ -77,12 +82,30 @@ class Problem:
         """The same for motions along which other joints stay at values too, rad and m, beside those that cannot move."""
         return replace(self, lock=replace(self.lock, tracer=tracer(self.arm, self.task, {**self.immobile, **others})))
 
+    @cached_property
     def sets(self) -> list[tuple[int, ...]]:
         """Joints that can be held so that one degree of redundancy is left; of many some, drawn."""
         mobile = [k for k in range(self.arm.n) if k not in self.immobile]
         every = list(combinations(mobile, self.spare - 1))
         order = np.random.default_rng(np.random.SeedSequence(self.seed)).permutation(len(every))
         return [every[k] for k in order[:_SETS]]
+
+    def coarser(self) -> Problem:
+        """The same on fewer poses and nodes, for trying."""
+        time = np.linspace(0.0, self.path.duration, max(len(self.time) // 4, _FEWEST))
+        lock = Lock.along(self.arm, self.lock.tracer, self.path, time, self.kept)
+        return replace(self, time=time, lock=lock, spacing=max(self.spacing, _COARSE))
+
+    def first(self) -> Array:
+        """(K, n) a few configurations of the first pose, far apart."""
+        q = self.lock.tracer.seeds(self.lock.poses[:1], np.zeros(1, dtype=np.intp), self.seed, _STARTS)[1]
+        if self.kept is not None:
+            q = q[self.kept[0].room(q) >= self.kept[1]]
+        chosen = [0] * bool(len(q))
+        while 0 < len(chosen) < min(_FIRST, len(q)):
+            away = np.min([np.linalg.norm(joint_space.difference(self.arm, q, q[k]), axis=1) for k in chosen], axis=0)
+            chosen.append(int(away.argmax()))
+        return np.asarray(q[chosen])
 
     def judge(self, q: Array) -> Flags:
         """(T, n) which locks of a motion (T, n) are survived; none where it is NaN."""
@@ -96,17 +119,22 @@ class Problem:
         With more than one degree of redundancy the failed arm goes on with further joints held, so that it has one way; a lock
         is survived if one such way leads to the end, or if the motion itself does not move the joint any more.
         """
-        there = np.isfinite(q).all(axis=1)
         if self.spare == 1:
-            return tables.along(self.lock, q, np.ones(q.shape, dtype=bool))
-        left = np.abs(q[::-1] - q[-1])
-        survives = (np.maximum.accumulate(left)[::-1] <= _IMMOBILE) & np.logical_and.accumulate(there[::-1])[::-1, None]
-        for held in self.sets():
+            return tables.along(self.lock, q)
+        survives = self.stays(q)
+        for held in self.sets:
             asked = ~survives
             asked[:, list(held)] = False
             if asked.any():
                 survives |= tables.along(self.holding(dict.fromkeys(held, 0.0)).lock, q, asked)
         return survives
+
+    def stays(self, q: Array) -> Flags:
+        """(T, n) where a motion (T, n) is there to its end and moves the joint no more: with redundancy left, it goes on."""
+        there = np.isfinite(q).all(axis=1, keepdims=True)
+        moves = np.abs(q - q[-1]) > _IMMOBILE
+        lost = (~there | moves | (self.spare == 1))[::-1]
+        return np.asarray(~np.logical_or.accumulate(lost)[::-1])
 
     @cached_property
     def fibres(self) -> list[SelfMotion]:
@@ -182,7 +210,7 @@ def posed(
         return problem.holding({}) if problem.immobile else problem
     if mode == "detour":
         raise TaskError(
-            f"'{arm.name}' has {problem.spare} degrees of redundancy for the task '{rows.name}'; detours are looked at with one: "
-            "use the mode on-path, or choose a task with more rows"
+            f"'{arm.name}' has {problem.spare} degrees of redundancy for the task '{rows.name}'; detours are looked at "
+            "with one: use the mode on-path, or choose a task with more rows"
         )
     return problem

@@ -181,18 +181,19 @@ def _shared(a: Spans, b: Spans) -> Spans:
     return sorted((low, high) for low, high in both if low <= high)
 
 
-def along(lock: Lock, q: Array, asked: Flags) -> Flags:
-    """(T, n) as :func:`on_path` for one configuration q (T, n) of each pose: every lock ``asked`` (T, n) is followed to the end.
+def along(lock: Lock, q: Array, asked: Flags | None = None) -> Flags:
+    """(T, n) as :func:`on_path` for one configuration q (T, n) of each pose: every lock is followed to the end.
 
-    Where q is NaN none is.
+    Only those ``asked`` (T, n) if given; where q is NaN none is.
     """
     survives = np.zeros(q.shape, dtype=bool)
-    asked = asked & np.isfinite(q).all(axis=1)[:, None]
-    survives[-1] = asked[-1]
+    there = np.isfinite(q).all(axis=1, keepdims=True)
+    wanted = np.broadcast_to(there, q.shape) if asked is None else asked & there
+    survives[-1] = wanted[-1]
     at = np.empty((0, lock.arm.n))
     begun, joint = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     for t in each("poses", range(len(q) - 1)):
-        fresh = np.flatnonzero(asked[t])
+        fresh = np.flatnonzero(wanted[t])
         at = np.concatenate([at, np.repeat(q[t : t + 1], fresh.size, axis=0)])
         begun, joint = np.concatenate([begun, np.full(fresh.size, t)]), np.concatenate([joint, fresh])
         at, good = lock.step(at, joint, t)

@@ -106,9 +106,10 @@ class Tracer:
         holds = arm.n - task.m - self.free
         held = [ca.SX.sym("held", holds, arm.n)] if holds else []
         e, j = ca.vertcat(e, ca.SX.zeros(holds, 1)), ca.vertcat(j, *held)
+        moves = 1 - ca.sum1(held[0]) if held else ca.SX.ones(1, arm.n)
         basis = householder(j).null_rows()
-        null = [basis[k][c] for c in range(self.free) for k in range(arm.n)]
-        back = damped_least_norm(j, e, 1e-14)
+        null = [basis[k][c] * moves[k] for c in range(self.free) for k in range(arm.n)]  # not even by rounding
+        back = damped_least_norm(j, e, 1e-14) * moves.T
         # The basis is that of q, the residual too: a point that needs no correction brings its own.
         return Kernel("self-motion", [q, p, r, *held], [ca.vertcat(q + back, ca.norm_2(e), *null)])
 

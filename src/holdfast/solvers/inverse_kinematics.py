@@ -203,9 +203,7 @@ class InverseKinematics:
         """Random configurations (rows, n), uniform within the limits."""
         return generator.uniform(self._low, self._high, (rows, self.arm.n))
 
-    def attempt(
-        self, q: Array, poses: Array, tolerance: float, held: Sequence[int] = ()
-    ) -> tuple[Array, NDArray[np.bool_]]:
+    def attempt(self, q: Array, poses: Array, tolerance: float, held: Sequence[int] = ()) -> tuple[Array, NDArray[np.bool_]]:
         """One start q (N, n) for each pose: where it led, and whether that is on the pose and within the limits.
 
         Joints that are ``held``, by index from 0, stay where they are.
