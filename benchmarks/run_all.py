@@ -24,6 +24,8 @@ WORKLOADS = (
     "w13_design",
     "w14_first_use",
     "w15_cells",
+    "w16_endurance",
+    "w16_fail_active",
     "spectral",
     "memory",
 )

@@ -28,35 +28,41 @@ def panda():
     return hf.arms.load("panda")
 
 
-def test_the_chain_is_the_arm(panda, rng):
+def test_the_chain_of_the_file_is_the_arm(panda, rng):
+    """Joints turn about the z axes of the frames that the file holds."""
     for arm in (panda, oracles.random_arm(rng, types="RRRRR", limits=2.0)):
-        q = rng.uniform(-1.5, 1.5, (20, arm.n))
-        tip, _, columns = Chain.of(arm).followed(q)
-        np.testing.assert_allclose(tip, arm.forward_kinematics(q)[:, :3, 3], atol=1e-13)
-        np.testing.assert_allclose(columns.swapaxes(1, 2), arm.jacobian(q)[:, :3], atol=1e-12)
+        chain, q, place = Chain.of(arm), rng.uniform(-1.5, 1.5, arm.n), np.eye(4)
+        for k in range(arm.n + 1):
+            frame, turn = np.eye(4), np.eye(4)
+            frame[:3, :3], frame[:3, 3] = chain.rotations[k], chain.origins[k]
+            if k < arm.n:
+                turn[:2, :2] = [[np.cos(q[k]), -np.sin(q[k])], [np.sin(q[k]), np.cos(q[k])]]
+            place = place @ frame @ turn
+        np.testing.assert_allclose(place, arm.forward_kinematics(q), atol=1e-12)
 
 
 @pytest.mark.parametrize("locked", [-1, 1, 3])
-def test_the_error_is_never_larger_than_its_bound(panda, locked, rng):
+def test_the_error_is_never_larger_than_its_bound(locked, rng):
     """The third-order remainder and all before it, at random points of random boxes; far from it the bound would be useless."""
     arm = oracles.random_arm(rng, types="RRRRR", limits=2.5)
-    reach = Reach(Chain.of(arm), 3, locked, np.tile([-9.0, 9.0], (5, 1)))
+    reach = Reach(arm, 3, locked, np.tile([-9.0, 9.0], (5, 1)))
     q = rng.uniform(-1.5, 1.5, (40, 5))
     at = arm.forward_kinematics(q)[:, :3, 3]
     form = Form.at(reach, q, at + rng.uniform(-1e-3, 1e-3, (40, 3)))
     axes = 3 + (locked >= 0)
-    widths = rng.uniform(0, 0.08, (40, axes + 3))
-    above, below, _ = form.sides(widths)
-    inverse = reach.inverse(reach.first(q)[1])
-    jacobians = reach.first(q)[1]
+    cells, sections = rng.uniform(0, 0.08, (40, axes)), rng.uniform(0, 0.08, (40, 3))
+    above, below, far = form.sides(cells, sections)
+    jacobians = arm.jacobian(q)[:, :3]
+    inverse = np.zeros((40, 5, 3))
+    inverse[:, reach.free] = np.linalg.pinv(jacobians[:, :, reach.free])
     closest = 0.0
     for _ in range(50):
-        x = rng.choice([-1.0, 1.0, 0.3], widths.shape) * widths
-        delta, s = x[:, :axes], x[:, axes:]
+        delta, s = rng.choice([-1.0, 1.0, 0.3], cells.shape) * cells, rng.choice([-1.0, 1.0, 0.3], (40, 3)) * sections
         follow = (inverse @ (delta[:, :3] + s)[:, :, None])[..., 0]
         if locked >= 0:
             follow -= (inverse @ jacobians[:, :, [locked]])[..., 0] * delta[:, [3]]
             follow[:, locked] = delta[:, 3]
+        assert (np.abs(follow) <= far + 1e-12).all()
         error = arm.forward_kinematics(q + follow)[:, :3, 3] - (at - form.error) - delta[:, :3] - s
         assert (error <= above + 1e-12).all()
         assert (-error <= below + 1e-12).all()

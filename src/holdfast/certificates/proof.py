@@ -136,7 +136,7 @@ def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = 
     arm = claim.arm
     chain = Chain.of(arm)
     root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
-    search = Search(Reach(chain, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed)
+    search = Search(Reach(arm, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed)
     cells = search.estimate()
     if verifier.MOST_LEAVES < cells < np.inf:
         raise InputError(

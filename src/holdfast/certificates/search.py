@@ -16,10 +16,12 @@ Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
 PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
-_POOL, _STARTS = 200, 12  # targets, and random starts of each
+_POOL, _STARTS = 1000, 12  # targets, and random starts of each
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _STEPS, _STRIDE = 6, 0.5  # along self-motions, rad
+_CLIMB, _TYPICAL = 10, 16  # such steps of the pool, to prove more of cells that are so many times smaller than the root
 _AT_ONCE = 4096
+_LOST = 1e6  # m: the error where the arm is singular
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
 
 
@@ -111,10 +113,30 @@ class Search:
         low, high = np.clip(reach.limits.T, -np.pi, np.pi)
         q = self._at(self.rng.uniform(low, high, (len(starts), reach.n)), starts)
         q = reach.solved(q, starts[:, : reach.m], 40)
-        met = np.abs(reach.first(q)[0] - starts[:, : reach.m]).max(axis=1) < 1e-9
+        met = reach.missed(q, starts[:, : reach.m]) < 1e-9
         self.pool = q[met]
         self._pool_at = starts[met, : reach.m]
         self._near = KDTree(starts[met] / self._unit) if met.any() else None
+        self._climb(starts[met])
+
+    def _climb(self, at: Array) -> None:
+        """In place: the pool moves along its self-motions to where configurations prove more."""
+        half, best = np.tile(self.width / _TYPICAL, (len(at), 1)), np.full(len(at), -1.0)
+        for k in range(1 + _CLIMB * self._redundant):
+            q = self.reach.solved(self._stepped(self.pool), self._pool_at) if k else self.pool
+            size = Form.at(self.reach, q, self._pool_at).scale(half)
+            better = size > best
+            self.pool[better], best[better] = q[better], size[better]
+
+    @property
+    def _redundant(self) -> bool:
+        return bool(self.reach.free.sum() > self.reach.m)
+
+    def _stepped(self, q: Array) -> Array:
+        """A random step along the self-motion from each q (N, n)."""
+        move = np.nan_to_num(self.reach.along(q, self.rng.normal(size=q.shape)))
+        size = self.rng.uniform(0, _STRIDE, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
+        return np.asarray(q + move * size[:, None])
 
     def estimate(self) -> float:
         """Cells that the whole would take, from how much of it single configurations prove."""
@@ -171,8 +193,8 @@ class Search:
         for k in np.flatnonzero(found):
             self.tree.token[cells.name[k]], self.tree.centre[int(cells.name[k])] = PROVED, places[k]
         # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
-        off = np.linalg.norm(self.reach.first(q)[0] - centre[:, : self.reach.m], axis=1)
-        turn = half[:, self.reach.m :].sum(axis=1) * self.reach.chain.lengths.sum()
+        off = self.reach.missed(q, centre[:, : self.reach.m])
+        turn = half[:, self.reach.m :].sum(axis=1) * self.reach.lengths.sum()
         lost = off > 2 * (np.linalg.norm(half[:, : self.reach.m], axis=1) + turn)
         some = np.flatnonzero(~found & ~smallest & ~lost)
         rest, q = cells.take(some), q[some]
@@ -198,15 +220,11 @@ class Search:
 
     def _along_self_motions(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
         """In place: cells that are nearly proved, and the smallest, try configurations on the self-motions of theirs."""
-        for _ in range(_STEPS if self.reach.free.sum() > self.reach.m else 0):
+        for _ in range(_STEPS * self._redundant):
             which = np.flatnonzero(~found & ((part > 0.5) | smallest))
             if not which.size:
                 break
-            jacobians = self.reach.first(q[which])[1]
-            move = self.rng.normal(size=(len(which), self.reach.n)) * self.reach.free
-            move -= (self.reach.inverse(jacobians, 1e-12) @ (jacobians @ move[:, :, None]))[:, :, 0]
-            move *= (self.rng.uniform(0, _STRIDE, len(which)) / np.maximum(np.abs(move).max(axis=1), 1e-9))[:, None]
-            self._improve(q, found, part, which, q[which] + move, centre, half)
+            self._improve(q, found, part, which, self._stepped(q[which]), centre, half)
 
     def _improve(
         self, q: Array, found: Flags, part: Array, which: NDArray[np.intp], begin: Array, centre: Array, half: Array
@@ -228,7 +246,7 @@ class Search:
             part[rest] = form.take(rest).scale(half[rest])
             # The error in the middle may cancel half of the curvature.
             near = rest[part[rest] > 0.5]
-            above, below, _ = form.take(near).sides(np.concatenate([half[near], sections[near]], axis=1))
+            above, below, _ = form.take(near).sides(half[near], sections[near])
             moved = self._rounded(self.reach.solved(q[near], centre[near, :m] - (above - below) / 2, 3), centre[near])
             good, _ = Form.at(self.reach, moved, centre[near, :m]).proved(half[near])
             q[near[good]], found[near[good]], part[near[good]] = moved[good], True, 1.0
@@ -245,9 +263,9 @@ class Search:
         for axis in np.flatnonzero(self.width > 0):
             narrow = half.copy()
             narrow[:, axis] /= 2
-            above, below, _ = form.sides(np.concatenate([narrow, np.zeros((len(q), self.reach.m))], axis=1))
-            e = np.maximum(above, below)
-            _, _, far = form.sides(np.concatenate([narrow, np.maximum(e, 0)], axis=1))
+            above, below, _ = form.sides(narrow, np.zeros((len(q), self.reach.m)))
+            e = np.nan_to_num(np.maximum(above, below), nan=_LOST)
+            _, _, far = form.sides(narrow, np.maximum(e, 0))
             beyond = np.maximum(np.maximum(low - (q - far), q + far - high), 0) * self.reach.free
             price[:, axis] = np.where(depth[:, axis] < self.halvings, e.sum(axis=1) + beyond.sum(axis=1), np.inf)
         return np.asarray(np.where(np.isfinite(price).any(axis=1), price.argmin(axis=1), 0), dtype=np.int64)
