@@ -71,9 +71,10 @@ def _injected(tried: Injection) -> dict[str, Any]:
 def key_table(e: Endurance) -> Rows:
     """The survival, what bounds it, and when it is least."""
     when, least = e.worst
-    rows = [["locks survived", percent(e.survival)]]
-    if e.found is not None:
-        rows.append(["no motion survives more than", percent(e.found.bound)])
+    at = {"exact": "locks survived", "upper bound": "locks survived, at most", "lower bound": "locks survived, at least"}
+    rows = [[at[e.kind], percent(e.survival)]]
+    if e.bound is not None:
+        rows.append(["no motion survives more than", percent(e.bound)])
     rows += [
         ["at the worst instant", f"{percent(least)}, at {number(when)} s"],
         ["every lock is survived from", f"{number(e.safe_from)} s on"],
@@ -105,14 +106,15 @@ def story(e: Endurance) -> Story:
     """How many locks are survived, and how many could be."""
     _, *lines = map(capitalised, e.describe())
     answer = f"{capitalised(e.headline)}"
-    if e.found is not None and not e.guaranteed:
-        answer += f"; no motion along this path survives more than {percent(e.found.bound)}"
+    if e.bound is not None and not e.guaranteed:
+        answer += f"; no motion along this path survives more than {percent(e.bound)}"
     if e.beside:
         other = max(e.beside, key=lambda x: x.survival)
         answer += f"; of the motions beside it {other.name} survives most, {percent(other.survival)}"
-    facts = [(percent(e.survival), "of the locks on the way are survived")]
-    if e.found is not None:
-        facts.append((percent(e.found.bound), "is the most that any motion could survive, up to the grid"))
+    bound = "" if e.kind == "exact" else f" ({e.kind})"
+    facts = [(percent(e.survival), f"of the locks on the way are survived{bound}")]
+    if e.bound is not None:
+        facts.append((percent(e.bound), "is the most that any motion could survive, up to the grid"))
     if e.safe_from < e.time[-1] and e.safe_from > 0:
         facts.append((f"{number(e.safe_from)} s", "from then on every lock is survived"))
     about = f"{e.arm.title}, task {e.task.name}, {e.path.describe()}"

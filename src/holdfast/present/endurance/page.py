@@ -28,7 +28,7 @@ _BINS = 64
 
 def figures(e: Endurance) -> dict[str, Figure]:
     """Survival over time, beside that of other motions, and of a motion that was looked for the map of all configurations."""
-    level = None if e.found is None else (100 * e.found.bound, "no motion survives more, in the mean")
+    level = None if e.bound is None else (100 * e.bound, "no motion survives more, in the mean")
     mine = "most locks survived" if e.found is not None else "this motion"
     lines = [(mine, 100 * e.curve()), *((other.name, 100 * other.curve) for other in e.beside)]
     drawn = {"survival": lines_figure(e.time, lines, level, "if a joint locks now, survived, %")}
