@@ -16,7 +16,7 @@ from holdfast import keep
 from holdfast.arm.task import rows_task
 from holdfast.errors import InputError
 from holdfast.keep.manifold import Manifold
-from holdfast.recovery import Ending
+from holdfast.recovery import Ending, search
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.verification import verify
 
@@ -205,7 +205,7 @@ def test_upright_in_a_cell(panda):
 # ---- where it cannot be -----------------------------------------------------------------------------------------------------
 
 
-def test_a_line_through_what_the_arm_cannot_reach_is_not_called_infeasible_without_a_proof(three):
+def test_a_line_through_what_the_arm_cannot_reach_is_not_called_infeasible_without_a_proof(three, monkeypatch):
     """Both ends of the line can be reached; between them it passes nearer to the base than links of 1 m and 2 m allow."""
     start, end = np.array([0.2, 2.3, 0.0]), np.array([2.2, 2.3, 0.0])
     a, b = (three.forward_kinematics(q) for q in (start, end))
@@ -214,6 +214,9 @@ def test_a_line_through_what_the_arm_cannot_reach_is_not_called_infeasible_witho
     assert nearest < 1 < np.linalg.norm(a[:3, 3])
     ask = {"goal": b, "task": "planar", "samples": 0}
     assert hf.recover(three, {"joint3": 0.0}, start, **ask).ok
+    proved = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=keep.plane(across), tries=1)
+    assert (proved.verdict.kind, proved.ending) == ("disconnected", Ending.PROVED_DISCONNECTED)
+    monkeypatch.setattr(search, "disconnected", lambda *_: None)
     for tries, verdict in ((1, "undecided"), (4, "argued infeasible")):
         answer = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=keep.plane(across), tries=tries)
         assert (answer.verdict.answer, answer.ending) == (verdict, Ending.NO_ROUTE_FOUND)

@@ -30,7 +30,7 @@ from holdfast.words import capitalised
 
 Array = NDArray[np.float64]
 Answer = Literal["solved", "proved infeasible", "argued infeasible", "undecided"]
-ProofKind = Literal["start", "limits", "reach bound", "boxes", "a pose of the path", "rows kept"]
+ProofKind = Literal["start", "limits", "reach bound", "boxes", "a pose of the path", "rows kept", "disconnected"]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,8 @@ class Verdict:
             proves nothing. ``undecided``: the search was spent, or what it found was not verified.
         why: The proof, what was searched, or at which level the search was spent; empty if solved.
         kind: Of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a pose
-            of the path``, ``rows kept`` (all the way, which the goal itself breaks); empty if there is none.
+            of the path``, ``rows kept`` (all the way, which the goal itself breaks), ``disconnected`` (the goal from the
+            start); empty if there is none.
     """
 
     answer: Answer
@@ -76,6 +77,7 @@ class Ending(IntEnum):
     START_TOO_CLOSE = 7
     LOCK_ELSEWHERE = 8
     START_BREAKS_ROWS = 9
+    PROVED_DISCONNECTED = 10
 
     @property
     def phrase(self) -> str:
@@ -101,6 +103,7 @@ _SENTENCES = {
     Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself or its cell than the clearance that must be kept",
     Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
     Ending.START_BREAKS_ROWS: "no motion: where the arm is breaks a row that must be kept all the way",
+    Ending.PROVED_DISCONNECTED: "configurations of the goal exist, and NO motion leads to any of them, which is PROVED",
 }
 
 
@@ -215,10 +218,10 @@ class Recovery(Result):
             if self.verified is None or self.verified.ok:
                 return Verdict("solved")
             return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
-        if self.ending >= Ending.START_OUTSIDE_LIMITS:
-            return Verdict("proved infeasible", self.reason, "start")
         if self.proof_kind:
             return Verdict("proved infeasible", self.proof or "", self.proof_kind)
+        if self.ending >= Ending.START_OUTSIDE_LIMITS:
+            return Verdict("proved infeasible", self.reason, "start")
         if self.closed_in:
             there = "the goal" if self.closed_in == "start" else "the start"
             return Verdict(

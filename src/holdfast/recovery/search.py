@@ -26,6 +26,7 @@ from holdfast.recovery.completion import completed
 from holdfast.recovery.continuation import RestOfPath, along, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
+from holdfast.recovery.proofs.flood import disconnected, holds_configuration, may_meet
 from holdfast.recovery.proofs.reach import listed, proved_by, telling_first, unreachable
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
@@ -252,6 +253,9 @@ class _Search:
         route = self._route(here, np.stack([m[0] for m in motions]))
         self._look("looking for a route to the tool path")
         if route is None:
+            proof = disconnected(self.space, here, may_meet(self.space, self.solver.rows, path.pose(rest.share[:1])))
+            if proof is not None and not self.made.proof_kind:
+                self.made = replace(self.made, proof=f"at the beginning of the tool path: {proof}", proof_kind="disconnected")
             return replace(rest, q=np.zeros((0, self.made.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
         if rest.graph:
@@ -320,6 +324,11 @@ class _Search:
                 f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
                 f"{self._in_the_way(here, goals[0])}"
             )
+            holds = may_meet(self.space, self.solver.rows, aim.poses)
+            proof = disconnected(self.space, here, holds if aim.q is None else holds_configuration(self.space, aim.q))
+            if proof is not None and aim.lost is None:
+                ending = Ending.PROVED_DISCONNECTED
+                return replace(made, ending=ending, proof=proof, proof_kind="disconnected", reason=proof)
             why, closed_in = "; ".join(reasons), self.space.closed_in
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]

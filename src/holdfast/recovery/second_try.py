@@ -27,7 +27,8 @@ def bolder(found: Recovery, again: Callable[[Clearance], Recovery]) -> Recovery:
         found: By the bound.
         again: The same search with another clearance.
     """
-    settled = found.proof_kind in ("reach bound", "boxes") and found.given_up is not None
+    proved = found.proof_kind in ("reach bound", "boxes") and found.given_up is not None
+    settled = proved or found.proof_kind == "disconnected"
     sharp = sharpened(found.clearance, found.margin) if found.ending in _IN_THE_WAY and not settled else None
     if sharp is None:
         return found
@@ -37,7 +38,8 @@ def bolder(found: Recovery, again: Callable[[Clearance], Recovery]) -> Recovery:
     return replace(found, reason=f"{found.reason}; nor is there more by exact distances ({sharp.exact_by})".lstrip("; "))
 
 
-def _lost(recovery: Recovery) -> tuple[int, int, float]:
+def _lost(recovery: Recovery) -> tuple[float, int, float]:
     """How much of what was asked for is not met: the ending, how many rows are given up, and how much of the path."""
     rows, rest = recovery.given_up, recovery.rest
-    return recovery.ending, 0 if rows is None else len(rows.names), 0.0 if rest is None else -rest.furthest
+    ending = Ending.NO_ROUTE_FOUND - 0.5 if recovery.ending == Ending.PROVED_DISCONNECTED else recovery.ending
+    return ending, 0 if rows is None else len(rows.names), 0.0 if rest is None else -rest.furthest

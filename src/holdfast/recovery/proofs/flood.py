@@ -1,0 +1,225 @@
+"""That no motion leads to the goal: a flood over cells of the joints that still move, if these are few.
+
+A cell is a box of joints. It is certainly blocked if a ball within a link, at its middle, is deeper in an object than it can
+move within the box, or if a row kept is broken by more than it can change. What is left may be free. If those of it that are
+joined to the start, by a corner at least, hold no configuration of the goal, nothing does; else they are halved. That the arm
+blocks itself is left aside, so a proof never rests on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.poses import rotation_vectors
+from holdfast.cell.solids import Primitive
+from holdfast.clearance.capsules import BASE
+from holdfast.clearance.exact.bodies import solids_within
+from holdfast.clearance.exact.meetings import Part
+from holdfast.recovery.rows import Rows
+from holdfast.recovery.space import Space
+from holdfast.solvers import joint_space
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Cells = NDArray[np.int64]
+Holds = Callable[[Array, Array], Flags]
+"""Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
+
+_JOINTS = 3  # that move, at most
+_FIRST = 8  # cells of each joint, at first
+_MOST = {1: 20_000, 2: 80_000, 3: 120_000}  # cells looked at, by the number of joints
+_SLACK = 1e-9  # m and rad: rounding
+_BALLS = 24  # along a body
+_CHUNK = 4096
+
+
+def disconnected(space: Space, start: Array, holds: Holds) -> str | None:
+    """A sentence that proves that no motion leads from a start (n,) to what ``holds`` knows; None if none could be proved."""
+    free = np.flatnonzero(space.free)
+    box = _box(space, free)
+    if box is None or len(free) > _JOINTS or (space.manifold is None and space.clearance is None):
+        return None
+    blocked = _Blocked(space)
+    low, high, round_ = box
+    at = np.where(round_, np.arctan2(np.sin(start[free]), np.cos(start[free])), start[free])
+    count, looked_at = _FIRST, 0
+    cells = np.array(list(product(range(count), repeat=len(free))), dtype=np.int64)
+    while looked_at + len(cells) <= _MOST[len(free)] and not space.spent:
+        half = np.zeros(space.arm.n)
+        half[free] = (high - low) / (2 * count)
+        middle = np.tile(start, (len(cells), 1))
+        middle[:, free] = low + (2 * cells + 1) * half[free]
+        looked_at += len(cells)
+        open_ = ~np.concatenate([blocked(middle[i : i + _CHUNK], half) for i in range(0, len(cells), _CHUNK)])
+        cells, middle = cells[open_], middle[open_]
+        away = np.abs(middle[:, free] - at)
+        away = np.where(round_, np.minimum(away, 2 * np.pi - away), away)
+        begin = (away <= half[free] + _SLACK).all(axis=1)
+        if not begin.any():
+            return None  # the start is clear, so this cannot be
+        joined = _flooded(cells, begin, count, round_)
+        cells, middle = cells[joined], middle[joined]
+        if not holds(middle, half).any():
+            names = " and ".join(space.arm.joint_names[k] for k in free)
+            return (
+                f"what {names} can get to from the start holds no configuration of the goal, by a flood over {looked_at:,} "
+                f"cells of joints, up to {count} of each, up to floating point"
+            )
+        cells = (2 * cells[:, None] + np.array(list(product((0, 1), repeat=len(free))))).reshape(-1, len(free))
+        count *= 2
+    return None
+
+
+def holds_configuration(space: Space, q: Array) -> Holds:
+    """Of a goal that is a configuration (n,)."""
+    return lambda middle, half: np.asarray(
+        (np.abs(joint_space.difference(space.arm, middle, q)) <= half + _SLACK).all(axis=1, where=space.free)
+    )
+
+
+def may_meet(space: Space, rows: Rows, poses: Array, tolerance: float = 1e-6) -> Holds:
+    """Of a goal that is any of poses (G, 4, 4), in rows of a task: rows that both turn and move are left aside."""
+    arm = space.arm
+    turns = np.abs(rows.matrix[:, :3]).max(axis=1) == 0
+    moves = np.abs(rows.matrix[:, 3:]).max(axis=1) == 0
+    linear = rows.matrix[moves, :3]
+    whole_turn = int(np.linalg.matrix_rank(rows.matrix[turns, 3:])) == 3 if turns.any() else False
+    tool = _Points(np.array([arm.n - 1]), arm.tool[None, :3, 3])
+
+    def holds(middle: Array, half: Array) -> Flags:
+        frames = arm.frames(middle)
+        moved = tool.moved(arm, frames, half)[:, 0] + tolerance + _SLACK
+        turned = float(half[~arm.prismatic].sum()) + tolerance + _SLACK
+        found = np.zeros(len(middle), dtype=bool)
+        for pose in poses:
+            away, good = pose[:3, 3] - frames[:, -1, :3, 3], np.ones(len(middle), dtype=bool)
+            most = moved
+            if rows.linear == "tool":
+                away = np.einsum("nji,nj->ni", frames[:, -1, :3, :3], away)
+                most = moved + np.linalg.norm(away, axis=1) * turned
+            good &= (np.abs(away @ linear.T) <= np.linalg.norm(linear, axis=1) * most[:, None]).all(axis=1)
+            if whole_turn:
+                turn = rotation_vectors(pose[:3, :3] @ frames[:, -1, :3, :3].transpose(0, 2, 1))
+                good &= np.linalg.norm(turn, axis=1) <= turned
+            found |= good
+        return found
+
+    return holds
+
+
+def _box(space: Space, free: NDArray[np.intp]) -> tuple[Array, Array, Flags] | None:
+    """Between what the free joints move, and which of them turn round and round; None where that is not known."""
+    low, high = space.arm.lower[free], space.arm.upper[free]
+    round_ = joint_space.turning(space.arm)[free]
+    low, high = np.where(round_, -np.pi, low), np.where(round_, np.pi, high)
+    return (low, high, round_) if np.isfinite([low, high]).all() and (high > low).all() else None
+
+
+def _flooded(cells: Cells, begin: Flags, count: int, round_: Flags) -> Flags:
+    """Which cells (N, f) are joined to those where it begins, by corners too, round those joints that turn round and round."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    dimensions = (count,) * cells.shape[1]
+    codes = np.ravel_multi_index(tuple(cells.T), dimensions)
+    order = np.argsort(codes)
+    known = codes[order]
+    first, last = [], []
+    for step in product((-1, 0, 1), repeat=cells.shape[1]):
+        beside = cells + np.array(step)
+        beside = np.where(round_, beside % count, beside)
+        some = np.flatnonzero(((beside >= 0) & (beside < count)).all(axis=1))
+        there = np.ravel_multi_index(tuple(beside[some].T), dimensions)
+        place = np.minimum(np.searchsorted(known, there), len(known) - 1)
+        met = known[place] == there
+        first.append(some[met])
+        last.append(order[place[met]])
+    i, j = np.concatenate(first), np.concatenate(last)
+    _, label = connected_components(coo_array((np.ones(len(i)), (i, j)), shape=(len(cells),) * 2), directed=False)
+    return np.isin(label, label[begin])
+
+
+@dataclass(frozen=True)
+class _Points:
+    """Points that move with an arm.
+
+    Attributes:
+        link: (P,) the joint that moves each, from 0.
+        at: (P, 3) in its frame, m.
+    """
+
+    link: NDArray[np.int64]
+    at: Array
+
+    def places(self, frames: Array) -> Array:
+        """(N, P, 3) in the world, m."""
+        pose = frames[:, self.link + 1]
+        return np.asarray(np.einsum("npij,pj->npi", pose[..., :3, :3], self.at) + pose[..., :3, 3])
+
+    def moved(self, arm: Arm, frames: Array, half: Array) -> Array:
+        """(N, P) the most by which each moves where joints move by up to ``half`` (n,) from where they are, m.
+
+        From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
+        """
+        places, total = self.places(frames), np.zeros((len(frames), len(self.link)))
+        for k in range(arm.n - 1, -1, -1):
+            if half[k] == 0:
+                continue
+            far = np.ones_like(total)
+            if not arm.prismatic[k]:
+                axis = frames[:, k + 1, :3, :3] @ arm.joints[k].axis
+                far = np.linalg.norm(np.cross(places - frames[:, k + 1, None, :3, 3], axis[:, None]), axis=2) + total
+            total = total + np.where(self.link >= k, far * half[k], 0.0)
+        return total
+
+
+class _Blocked:
+    """Which cells are certainly blocked."""
+
+    def __init__(self, space: Space) -> None:
+        self._space = space
+        seen = None if space.clearance is None else space.clearance.obstacles
+        parts: Sequence[Part] = [] if seen is None or space.clearance is None else space.clearance.exactness.parts
+        rows = [(part.link, *ball) for part in parts if part.link > BASE for ball in _balls(part)]
+        self._radius = np.array([radius for _, _, radius in rows])
+        self._points = _Points(
+            np.array([link for link, _, _ in rows]), np.array([centre for _, centre, _ in rows]).reshape(-1, 3)
+        )
+        self._objects: list[tuple[Primitive, float, Flags]] = []
+        for k, solid in enumerate(() if seen is None else seen.cell):
+            assert seen is not None
+            apart = seen.apart[self._points.link + 1, k] if len(rows) else np.zeros(0, dtype=bool)
+            self._objects += [(inner, seen.cell.margin_of(solid), apart) for inner in solids_within(solid)]
+
+    def __call__(self, q: Array, half: Array) -> Flags:
+        """(N,) True where everything within ``half`` (n,) of q (N, n) is blocked."""
+        space, found = self._space, np.zeros(len(q), dtype=bool)
+        if space.manifold is not None:
+            found |= (space.manifold.gaps(q) + space.manifold.changes(half[None]) < -_SLACK).any(axis=1)
+        if not self._objects or not len(self._radius):
+            return found
+        frames = space.arm.frames(q)
+        places = self._points.places(frames)
+        most = self._points.moved(space.arm, frames, half) - self._radius
+        for solid, margin, apart in self._objects:
+            nearest = np.where(apart, np.inf, solid.signed_distance(places) + most)
+            found |= nearest.min(axis=1) < margin + space.margin - _SLACK
+        return found
+
+
+def _balls(part: Part) -> list[tuple[Array, float]]:
+    """Centres (3,) in the frame of the link and radii, m, of balls within a body; closer than its own along a round one."""
+    body = part.body
+    centres, radii = body.inside
+    if body.kind in ("capsule", "cylinder") and len(radii) > 1:
+        centres = np.linspace(centres[0], centres[-1], _BALLS)
+        radii = np.full(_BALLS, radii[0])
+    return [
+        (body.pose[:3, :3] @ centre + body.pose[:3, 3], float(radius)) for centre, radius in zip(centres, radii, strict=True)
+    ]

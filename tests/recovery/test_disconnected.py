@@ -1,0 +1,195 @@
+"""Goals that no motion leads to, against floods over grids whose distances are worked out by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.ndimage import label
+
+import holdfast as hf
+import oracles
+from holdfast.arm.task import as_task, rows_task
+from holdfast.clearance import Capsules
+from holdfast.recovery import Ending, search
+from holdfast.recovery.proofs.flood import _Points, disconnected, holds_configuration, may_meet
+from holdfast.recovery.rows import row_solver
+from holdfast.recovery.space import Space
+
+THICK, BALL = 0.05, 0.2  # m
+COUNT = 180  # of the grid of the flood, each way
+
+
+def three_links(limit=np.inf):
+    return hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0, lower=-limit, upper=limit) for _ in range(3)], name="three")
+
+
+def among(arm, centres, radius=BALL):
+    balls = [hf.cell.Sphere(f"ball{k}", radius, pose=[*c, 0]) for k, c in enumerate(centres)]
+    return hf.Clearance(arm, Capsules.along(arm, THICK), hf.Cell(balls), itself=False)
+
+
+def ends(q):
+    return np.concatenate([np.zeros((len(q), 1)), np.cumsum(np.exp(1j * np.cumsum(q, axis=1)), axis=1)], axis=1)
+
+
+def room(centres, q):
+    """(N,) what is left between three links and the balls, by projection."""
+    points, least = ends(q), np.full(len(q), np.inf)
+    for c in centres @ [1, 1j]:
+        for k in range(3):
+            a, d = points[:, k], points[:, k + 1] - points[:, k]
+            s = np.clip(((c - a) * d.conj()).real, 0, 1)
+            least = np.minimum(least, np.abs(a + s * d - c))
+    return least - BALL - THICK
+
+
+def flooded(free, round_, start, goal, corners):
+    """Whether two cells of a grid (COUNT, COUNT) are joined, round its edges if joints turn round and round."""
+    names, _ = label(free, np.ones((3, 3)) if corners else None)
+    if round_:
+        for one, other in ((names[0], names[-1]), (names[:, 0], names[:, -1])):
+            for shift in (-1, 0, 1) if corners else (0,):
+                for a, b in zip(one, np.roll(other, shift), strict=True):
+                    if a and b and a != b:
+                        names[names == b] = a
+    return names[start] == names[goal] != 0
+
+
+@pytest.mark.parametrize("limit", [np.inf, 2.8], ids=["round", "limited"])
+def test_a_proof_is_never_against_a_flood_and_hardly_ever_missing(rng, limit):
+    arm = three_links(limit)
+    edge = min(limit, np.pi)
+    axis = -edge + (np.arange(COUNT) + 0.5) * 2 * edge / COUNT
+    grid = np.zeros((COUNT, COUNT, 3))
+    grid[..., 0], grid[..., 2] = np.meshgrid(axis, axis, indexing="ij")
+    proved = apart = 0
+    for case in range(6):
+        centres = rng.uniform(-2.4, 2.4, (4, 2))
+        centres = centres[np.linalg.norm(centres, axis=1) > 0.4]
+        grid[..., 1] = rng.uniform(-1, 1)
+        left = room(centres, grid.reshape(-1, 3)).reshape(COUNT, COUNT)
+        free = np.argwhere(left > 0.05)
+        if len(free) < 2:
+            continue
+        # Two that are not joined, if there are any.
+        start = tuple(free[rng.integers(len(free))])
+        goals = [tuple(free[k]) for k in rng.integers(len(free), size=12)]
+        goal = next((g for g in goals if not flooded(left > 0, np.isinf(limit), start, g, True)), goals[0])
+        joined = flooded(left > 0, np.isinf(limit), start, goal, False)
+        a, b = grid[start], grid[goal]
+        space = Space(arm, np.array([True, False, True]), among(arm, centres), 0.0, np.stack([a, b]))
+        proof = disconnected(space, a, holds_configuration(space, b))
+        assert proof is None or not joined
+        never = not flooded(left > -0.03, np.isinf(limit), start, goal, True)
+        apart, proved = apart + never, proved + (never and proof is not None)
+        if case < 1:  # a pose of the tool has another configuration, which may be joined
+            pose = may_meet(space, row_solver(arm, as_task(arm, "planar")).rows, arm.forward_kinematics(b)[None])
+            assert disconnected(space, a, pose) is None or proof is not None
+    assert proved >= 0.8 * apart
+    assert apart >= 1
+
+
+def test_three_joints_cannot_get_past_what_is_always_in_the_way():
+    arm = three_links()
+    ranges = {"joint1": (-0.7, 0.7), "joint2": (-0.3, 0.3), "joint3": (-0.3, 0.3)}
+    shape = among(arm, np.array([[2.0, 0.0]]), 0.3)
+    start, goal = np.array([-0.6, 0.1, 0.0]), np.array([0.6, -0.1, 0.1])
+    bad = hf.Degraded(arm, ranges=ranges)
+    found = hf.recover(arm, bad, start, goal=goal, clearance=shape, samples=0, tries=1)
+    assert (found.ending, found.verdict.answer, found.verdict.kind) == (
+        Ending.PROVED_DISCONNECTED,
+        "proved infeasible",
+        "disconnected",
+    )
+    assert "joint1 and joint2 and joint3 can get to from the start" in found.verdict.why
+
+
+@pytest.fixture(scope="module")
+def ring():
+    """Joint 2 is locked, and balls close the ways of the other two."""
+    arm = hf.arms.load("planar-3r")
+    return arm, among(arm, np.array([[2.6, 0.4], [1.0, 0.5], [-1.0, -0.6]])), np.array([-0.9, 0.4, 0.3])
+
+
+@pytest.mark.parametrize("kind", ["configuration", "pose", "path"])
+def test_the_verdict_says_that_it_is_proved(ring, kind, monkeypatch):
+    arm, shape, start = ring
+    there = np.array([1.5, 0.4, 0.3])
+    pose = arm.forward_kinematics(there)
+    asked = {"goal": there}
+    if kind == "pose":
+        asked = {"goal": pose, "task": "planar"}
+    elif kind == "path":
+        monkeypatch.setattr(search, "find_route", lambda *_: None)
+        onwards = arm.forward_kinematics(np.add(there, [0.1, 0, 0]))
+        asked = {"goal": None, "task": "planar", "path": hf.paths.line(pose[:3, 3], onwards[:3, 3])}
+    found = hf.recover(arm, ["joint2"], start, clearance=shape, samples=0, tries=1, **asked)
+    assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "disconnected"), found.verdict
+    assert not found.ok
+    assert not len(found.q)
+    assert "up to floating point" in found.proof
+    assert "disconnected" in found._presented("story").answer
+    assert found.to_dict()["verdict"]["kind"] == "disconnected"
+
+
+def test_rows_kept_close_ways_too(rng):
+    """A tool that must stay near a line cannot bring its arm from one side of it to the other."""
+    arm = three_links(2.8)
+    start = np.array([-0.3, 0.5, 0.4])
+    keep = [hf.keep.plane([0, 1, 0], within=(0.04, 0.2)).anchored(arm.forward_kinematics(start))]
+    axis = -2.8 + (np.arange(COUNT) + 0.5) * 5.6 / COUNT
+    grid = np.zeros((COUNT, COUNT, 3))
+    grid[..., 0], grid[..., 2] = np.meshgrid(axis, axis, indexing="ij")
+    grid[..., 1] = 0.5
+    off = np.abs(ends(grid.reshape(-1, 3))[:, 3].imag - ends(start[None])[0, 3].imag).reshape(COUNT, COUNT)
+    at = tuple(np.abs(axis - start[k]).argmin() for k in (0, 2))
+    space = Space(arm, np.array([True, False, True]), None, 0.0, start[None], keep=keep)
+    proved = 0
+    for goal in rng.permutation(np.argwhere(off < 0.02))[:8]:
+        proof = disconnected(space, start, holds_configuration(space, grid[tuple(goal)]))
+        assert proof is None or not flooded(off <= 0.04, False, at, tuple(goal), False)
+        assert proof is not None or flooded(off <= 0.07, False, at, tuple(goal), True)
+        proved += proof is not None
+    assert 0 < proved < 8
+
+
+# ---- bounds ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.interpreted
+def test_no_point_moves_farther_than_its_bound(rng):
+    arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
+    points = _Points(np.array([0, 2, 3, 5, 5]), rng.normal(0, 0.2, (5, 3)))
+    q = oracles.inside(arm, rng, 20)
+    shares = []
+    for size in (0.01, 0.1, 0.6):
+        half = rng.uniform(0, size, arm.n) * (rng.uniform(size=arm.n) < 0.7)
+        most = points.moved(arm, arm.frames(q), half)
+        places = points.places(arm.frames(q))
+        for _ in range(60):
+            other = points.places(arm.frames(q + half * rng.choice([-1, 1, rng.uniform(-1, 1)], q.shape)))
+            moved = np.linalg.norm(other - places, axis=2)
+            assert (moved <= most + 1e-12).all()
+            shares.append((moved / np.maximum(most, 1e-12)).max())
+    assert max(shares) > 0.7
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("rows", ["pose", "position", "pointing", ["vx", "wy"], "tool"])
+def test_a_cell_with_a_configuration_of_the_goal_is_never_left_out(rng, rows):
+    arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
+    task = rows_task(["vx", "vz", "wx", "wz"], "tool") if rows == "tool" else as_task(arm, rows)
+    wanted = row_solver(arm, task).rows
+    q = oracles.inside(arm, rng, 60)
+    space = Space(arm, np.ones(6, dtype=bool), None, 0.0, q[:1])
+    told = []
+    for size in (0.02, 0.2):
+        half = rng.uniform(0, size, arm.n)
+        there = q + rng.uniform(-1, 1, q.shape) * half
+        poses = arm.forward_kinematics(there)
+        for k in range(0, 60, 6):
+            holds = may_meet(space, wanted, poses[k : k + 1])(q, half)
+            assert holds[k]
+            told.append(holds.mean())
+    if rows != ["vx", "wy"]:
+        assert min(told) < 0.2
