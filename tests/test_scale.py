@@ -16,7 +16,7 @@ from holdfast.convergence.detours import healthy_cost
 from holdfast.designs import design_space
 from holdfast.designs.evaluation import Evaluator
 from holdfast.designs.family import Family
-from holdfast.recovery.proofs import out_of_reach
+from holdfast.recovery.proofs.reach import out_of_reach
 from holdfast.simulation import Outcome, simulate
 from holdfast.solvers import solve_ik
 

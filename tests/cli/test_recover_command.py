@@ -42,6 +42,34 @@ def test_the_command_writes_what_it_found(cli, tmp_path):
     assert json.loads(text)["locks_moved"] == {"joint2": pytest.approx(np.deg2rad(1))}
 
 
+@pytest.mark.parametrize("accelerations", ["2", "2,2,4", "joint1=2,3=4"])
+def test_a_motion_is_timed_within_accelerations_and_its_file_is_checked(cli, tmp_path, accelerations):
+    arm = tmp_path / "arm.urdf"
+    joints = "".join(
+        f'<link name="l{k}"/><joint name="joint{k}" type="revolute"><parent link="l{k - 1}"/><child link="l{k}"/>'
+        f'<origin xyz="{int(k > 1)} 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" velocity="1" effort="1"/></joint>'
+        for k in (1, 2, 3)
+    )
+    arm.write_text(f'<robot name="three"><link name="l0"/>{joints}</robot>')
+    call = ["recover", arm, "--lock", "2", "--at", "0.1 0.3 0.2", "--goal", "q:1.1 0.3 0.5", "--samples", "0"]
+    code, text, err = cli(*call, "--accelerations", accelerations, "--period", 0.02, "--out", tmp_path / "out")
+    assert (code, err) == (0, "")
+    assert "takes 1.5 s (1 s at the speed limits alone)" in text
+    assert (tmp_path / "out" / "timing.png").exists()
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    check(page)
+    assert "The timing" in page
+    file = tmp_path / "out" / "waypoints.csv"
+    assert len(file.read_text().splitlines()) == 77
+    data = json.loads((tmp_path / "out" / "recovery.json").read_text())["timed"]
+    assert (data["duration_s"], data["rows"]) == (pytest.approx(1.5), 76)
+    again = ["recover", arm, "--lock", "2=0.3", "--check", file]
+    assert cli(*again, "--accelerations", accelerations)[0] == 0
+    code, text, _ = cli(*again, "--accelerations", "1.9")
+    assert code == 3
+    assert "Joint1 accelerates by 2 a second squared" in text
+
+
 @pytest.mark.parametrize(
     ("more", "ending"),
     [
@@ -81,8 +109,10 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
         ([*CALL, "--lock", "3=up"], "not joint=number"),
         ([*CALL, "--goal", "pose:1,1,0", "--task", "planar-pose"], "no orientation"),
         ([*CALL, "--margin", "0.1"], "--margin has no effect"),
+        ([*CALL, "--accelerations", "quick"], "--accelerations"),
+        ([*CALL, "--accelerations", "3=1"], "no limit of 'joint1'"),
     ],
-    ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin"],
+    ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin", "accelerations", "missing"],
 )
 def test_the_command_refuses_in_one_sentence(refused, call, sentence):
     assert sentence in refused(*call)

@@ -63,7 +63,7 @@ VALUES = named(
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
-        "recovery": "Leg RestOfPath RowsGivenUp Verdict Verification",
+        "recovery": "Leg RestOfPath RowsGivenUp TimedMotion Verdict Verification",
         "shapes": "Piece",
         "simulation": "Path",
         "solvers": "Component FibrePath",

@@ -13,7 +13,7 @@ import holdfast as hf
 import oracles
 from holdfast.clearance import Capsule, Capsules, Clearance
 from holdfast.recovery import Ending, goals
-from holdfast.recovery.proofs import out_of_reach
+from holdfast.recovery.proofs.reach import out_of_reach
 
 
 def limited(arm: hf.Arm, lower, upper) -> hf.Arm:

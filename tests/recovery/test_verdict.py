@@ -11,8 +11,8 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
 from holdfast.clearance.exact.engines import installed
-from holdfast.recovery import Ending, search
-from holdfast.recovery.proofs import listed, proved_by, telling_first
+from holdfast.recovery import Ending, completion, search
+from holdfast.recovery.proofs.reach import listed, proved_by, telling_first
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.verification import Verification, row_errors, tool_poses, verify
 
@@ -81,7 +81,7 @@ def test_a_motion_into_an_object_is_refused(moved, three):
 
 def test_a_motion_that_other_code_refuses_is_no_answer(three, monkeypatch):
     fault = Verification(faults=("it is wrong",), looked_at=1, exact_by="", goal_miss=None, path_miss=None)
-    monkeypatch.setattr(search, "verify", lambda *_, **__: fault)
+    monkeypatch.setattr(completion, "verify", lambda *_, **__: fault)
     found = hf.recover(three, ["joint2"], HOME, goal=three.forward_kinematics([0.9, 0.6, 0.1]), task="planar", samples=0)
     assert found.ending == Ending.HOME
     assert (found.ok, found.verdict.answer) == (False, "undecided")

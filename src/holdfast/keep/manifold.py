@@ -51,6 +51,7 @@ class Manifold:
         self._low, self._high = limits
         order, lever = np.arange(arm.n), _levers(arm, *limits)
         self._turns = (~arm.prismatic).astype(np.float64)
+        self._lever = lever
         self._second = lever[np.maximum.outer(order, order)] * self._turns[np.minimum.outer(order, order)]
         bounds, exact = [], []
         for kept in self.keep:
@@ -107,9 +108,23 @@ class Manifold:
                 found.append(turned)
         return np.stack(found, axis=1)
 
-    def edges(self, a: Array, b: Array) -> Flags:
-        """(E,) True where everything is proved to be kept on the whole straight piece from a to b (E, n)."""
-        first, last = self.gaps(a), self.gaps(b)
+    def changes(self, d: Array) -> Array:
+        """(N, R) bounds of how much the vectors change where joints move by d (N, n)."""
+        size, found = np.abs(d), []
+        for kept in self.keep:
+            if len(kept.normals):
+                found.append(size @ self._lever)
+            if kept.turned or kept.direction is not None:
+                found.append((np.sqrt(2) if kept.turned else 1.0) * (size @ self._turns))
+        return np.stack(found, axis=1)
+
+    def edges(self, a: Array, b: Array, away: Array | None = None) -> Flags:
+        """(E,) True where everything is proved to be kept on the whole straight piece from a to b (E, n).
+
+        With ``away`` (E, n) also everything whose joints are off it by no more.
+        """
+        less = 0.0 if away is None else self.changes(away)
+        first, last = self.gaps(a) - less, self.gaps(b) - less
         free = np.asarray((first.min(axis=1) >= 0) & (last.min(axis=1) >= 0))
         bend = self.curvature(b - a) / 8
         edge, start = np.flatnonzero(free), np.zeros(int(free.sum()))
@@ -121,6 +136,8 @@ class Manifold:
             edge, start, first, last = edge[open_], start[open_], first[open_], last[open_]
             length /= 2
             gaps = self.gaps(a[edge] + (start + length)[:, None] * (b - a)[edge])
+            if away is not None:
+                gaps -= self.changes(away[edge])
             free[edge[gaps.min(axis=1) < 0]] = False
             edge, start = np.concatenate([edge, edge]), np.concatenate([start, start + length])
             first, last = np.concatenate([first, gaps]), np.concatenate([gaps, last])

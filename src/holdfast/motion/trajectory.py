@@ -20,6 +20,7 @@ from holdfast.files.spreadsheet import cell
 from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.motion.slowness import SlowMotion, slow_enough
+from holdfast.paths.joint_table import motion_columns
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
@@ -187,9 +188,8 @@ class Trajectory(Result):
     def columns(self) -> dict[str, Array]:
         """Named columns (T,) of the table that files hold: time, joints, rates, accelerations, errors, objective."""
         table = {"time_s": self.time}
-        for suffix, values, per in (("", self.q, ""), ("_rate", self.qd, "_per_s"), ("_acceleration", self.qdd, "_per_s2")):
-            for joint, column in zip(self.arm.joints, values.T, strict=True):
-                table[f"{joint.name}{suffix}_{joint.unit}{per}"] = column
+        for names, values in zip(motion_columns(self.arm), (self.q, self.qd, self.qdd), strict=True):
+            table |= dict(zip(names, values.T, strict=True))
         table |= {
             "position_error_m": self.position_error,
             "rotation_error_rad": self.rotation_error,

@@ -22,6 +22,12 @@ def joint_columns(arm: Arm) -> list[str]:
     return [f"{j.name}_{j.unit}" for j in arm.joints]
 
 
+def motion_columns(arm: Arm) -> tuple[list[str], list[str], list[str]]:
+    """The names of the columns of joints, their rates and their accelerations."""
+    rates = [f"{j.name}_rate_{j.unit}_per_s" for j in arm.joints]
+    return joint_columns(arm), rates, [f"{j.name}_acceleration_{j.unit}_per_s2" for j in arm.joints]
+
+
 @dataclass(frozen=True)
 class JointTable:
     """What such a file holds.

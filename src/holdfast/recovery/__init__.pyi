@@ -6,8 +6,10 @@ from holdfast.recovery.recovery import Recovery as Recovery
 from holdfast.recovery.recovery import Verdict as Verdict
 from holdfast.recovery.remainder import WhatIsLeft as WhatIsLeft
 from holdfast.recovery.search import recover as recover
+from holdfast.recovery.timing.motion import TimedMotion as TimedMotion
 from holdfast.recovery.verification import Verification as Verification
 from holdfast.recovery.waypoints import WaypointCheck as WaypointCheck
 from holdfast.recovery.waypoints import check_waypoints as check_waypoints
+from holdfast.recovery.waypoints import read_times as read_times
 from holdfast.recovery.waypoints import read_waypoints as read_waypoints
 from holdfast.recovery.waypoints import write_waypoints as write_waypoints

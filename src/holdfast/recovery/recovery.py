@@ -22,6 +22,7 @@ from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
 from holdfast.recovery.space import MetricName
+from holdfast.recovery.timing.motion import TimedMotion
 from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
@@ -137,6 +138,7 @@ class Recovery(Result):
         ending: :class:`holdfast.recovery.Ending`.
         reason: What is in the way, a sentence; empty if nothing is.
         q: (K, n) waypoints, rad and m, joints moving in straight lines between them; (0, n) if there is no motion.
+        timed: The same motion within accelerations, its corners rounded; None if none were given, or if there is no motion.
         legs: The parts of the motion, in order.
         given_up: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
@@ -166,6 +168,7 @@ class Recovery(Result):
     ending: Ending = Ending.HOME
     reason: str = ""
     q: Array
+    timed: TimedMotion | None = None
     legs: tuple[Leg, ...] = ()
     given_up: RowsGivenUp | None = None
     choices: tuple[RowsGivenUp, ...] = ()
@@ -247,22 +250,34 @@ class Recovery(Result):
         return sum(leg.lower_bound for leg in self.legs)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the waypoints; see :func:`holdfast.recovery.read_waypoints`.
+        """Write the waypoints, or the motion as it is timed; see :func:`holdfast.recovery.read_waypoints`.
 
         Raises:
             StoreError: There is no motion, or the file cannot be written.
         """
         if not len(self.q):
             raise StoreError(f"there are no waypoints to write: {self.ending.sentence}")
+        if self.timed is not None:
+            return self.timed.to_csv(file)
         return write_waypoints(self.degraded.limited, self.q, file)
 
     def check(self) -> WaypointCheck:
-        """Replay the waypoints in small steps; see :func:`holdfast.recovery.check_waypoints`.
+        """Replay the waypoints in small steps, or the motion as it is timed; see :func:`holdfast.recovery.check_waypoints`.
 
         Raises:
             InputError: There is no motion.
         """
-        return check_waypoints(self.arm, self.q, self.degraded, clearance=self.clearance, margin=self.margin, keep=self.keep)
+        timed = self.timed
+        return check_waypoints(
+            self.arm,
+            self.q if timed is None else timed.q,
+            self.degraded,
+            clearance=self.clearance,
+            margin=self.margin,
+            keep=self.keep,
+            time=None if timed is None else timed.time,
+            accelerations=None if timed is None else timed.accelerations,
+        )
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -289,6 +304,8 @@ class Recovery(Result):
                 bound = "no route" if least else f"lower bound {leg.lower_bound:.4g} {self.unit}"
                 text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if least else ''})"
             lines.append(text)
+        if self.timed is not None:
+            lines.append(self.timed.describe())
         if self.rest is not None:
             lines.append(self.rest.describe())
         if self.left is not None:

@@ -22,10 +22,11 @@ from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
+from holdfast.recovery.completion import completed
 from holdfast.recovery.continuation import RestOfPath, along, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
-from holdfast.recovery.proofs import listed, proved_by, telling_first, unreachable
+from holdfast.recovery.proofs.reach import listed, proved_by, telling_first, unreachable
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
@@ -33,7 +34,7 @@ from holdfast.recovery.routes import Route, find_route, in_vain
 from holdfast.recovery.rows import RowSolver, row_solver
 from holdfast.recovery.second_try import bolder
 from holdfast.recovery.space import Metric, MetricName, Space
-from holdfast.recovery.verification import Verification, verify
+from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
 from holdfast.regions.region import Region
 
 if TYPE_CHECKING:
@@ -66,6 +67,8 @@ def recover(
     starts: int = 256,
     tries: int = 4,
     time_limit: float | None = None,
+    accelerations: AccelerationsLike | None = None,
+    period: float = 0.01,
     seed: int = 0,
 ) -> Recovery:
     """Find a route home for an arm of which it is known what is locked or degraded, and say what it can still do.
@@ -103,6 +106,10 @@ def recover(
         tries: Searches for a route where straight lines are blocked; when a quarter of them found none, no more are made.
         time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
             seed need not give the same result.
+        accelerations: Limits, rad/s^2 and m/s^2, within which the motion found is timed as :attr:`Recovery.timed`: a number, n
+            numbers, or one by joint. Its corners are rounded where that is proved to keep limits, rows and clearance; along a
+            tool path by at most half a millimetre and a quarter of a degree; elsewhere the arm stops there.
+        period: s between the rows of the timed motion.
         seed: The same seed gives the same result.
 
     Returns:
@@ -121,6 +128,8 @@ def recover(
             raise InputError(f"{name} is {number}; it must be {least} or more")
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
+    if not (np.isfinite(period) and period > 0):
+        raise InputError(f"period is {period}; it must be above 0, in seconds")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin}; it must be a finite number of metres")
     start = q[0]
@@ -130,6 +139,7 @@ def recover(
     free, limited = degraded.moves, degraded.limited
     if not free.any():
         raise InputError(f"all {arm.n} joints of '{arm.name}' are locked, so nothing can move; leave one free")
+    most = None if accelerations is None else limits_by_joint(arm, accelerations, free)
     kept = chosen_clearance(arm, clearance, cell)
     if margin and kept is None:
         raise InputError("margin has nothing to keep: no clearance is looked at; give one")
@@ -169,7 +179,9 @@ def recover(
         if time_limit is not None:
             space.stop_after(time_limit - (monotonic() - began))
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
-        return _Search(asked, solver, space, length, tries, rng).run(standing, aim, path)
+        return _Search(asked, solver, space, length, tries, rng, pace=None if most is None else (most, period)).run(
+            standing, aim, path
+        )
 
     began = monotonic()
     return bolder(attempt(kept), attempt)
@@ -182,8 +194,16 @@ class _Search:
     """One recovery, step by step."""
 
     def __init__(
-        self, made: Recovery, solver: RowSolver, space: Space, metric: Metric, tries: int, rng: np.random.Generator
+        self,
+        made: Recovery,
+        solver: RowSolver,
+        space: Space,
+        metric: Metric,
+        tries: int,
+        rng: np.random.Generator,
+        pace: tuple[Array, float] | None,
     ) -> None:
+        self._pace = pace
         self.made, self.solver, self.space, self.metric, self.tries, self.rng = made, solver, space, metric, tries, rng
         self._q: list[Array] = []
         self._legs: list[Leg] = []
@@ -206,25 +226,7 @@ class _Search:
                 ended = replace(ended, ending=Ending.HOME_WITH_ROWS_GIVEN_UP, given_up=both)
         q = np.concatenate(self._q) if self._q else self.made.q
         ended = replace(ended, q=q, legs=tuple(self._legs), stopped=self._stopped)
-        return replace(ended, verified=self._verified(ended, aim, path)) if len(q) else ended
-
-    def _verified(self, ended: Recovery, aim: Goal | None, path: Path | None) -> Verification:
-        whole, along = ended.ending == Ending.HOME, None
-        legs = [leg for leg in ended.legs if leg.name == "along the path"]
-        if whole and legs and path is not None and ended.rest is not None:
-            along = path, ended.rest.share, slice(legs[0].first, legs[0].last + 1)
-        return verify(
-            ended.degraded,
-            ended.at,
-            ended.q,
-            rows=self.solver.rows,
-            goals=None if aim is None or not whole else aim.poses,
-            goal_q=None if aim is None or not whole else aim.q,
-            along=along,
-            keep=ended.keep,
-            clearance=ended.clearance,
-            margin=ended.margin,
-        )
+        return completed(ended, self.space, self.solver.rows, aim, path, self._pace) if len(q) else ended
 
     def _look(self, doing: str) -> None:
         """The time limit may have been spent in what was just done."""

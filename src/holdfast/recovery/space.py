@@ -144,8 +144,10 @@ class Space:
             good[good] = self._gaps(q[good]).min(axis=1) >= 0
         return good
 
-    def edges(self, a: Array, b: Array) -> Flags:
+    def edges(self, a: Array, b: Array, away: Array | None = None) -> Flags:
         """(E,) True where the whole straight piece from a to b (E, n) is proved to keep limits, rows and clearance.
+
+        With ``away`` (E, n) also everything whose joints are off it by no more, limits left aside.
 
         Between two configurations at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
         most that its distance can change on the way (:meth:`Clearance.changes`). Pieces for which that does not do are
@@ -153,14 +155,15 @@ class Space:
         """
         free: Flags = self.inside(a) & self.inside(b)
         if self.manifold is not None and free.any():
-            free[free] = self.manifold.edges(a[free], b[free])
+            free[free] = self.manifold.edges(a[free], b[free], None if away is None else away[free])
         if self.clearance is None or not free.any():
             return free
         assert self._slopes is not None
         change = np.abs(b - a) @ self._slopes.T
+        less = 0 * change if away is None else away @ self._slopes.T
         edge = np.arange(len(a))
         start, end = np.zeros(len(a)), np.ones(len(a))
-        first, last = self._gaps(a), self._gaps(b)
+        first, last = self._gaps(a) - less, self._gaps(b) - less
         free &= (first.min(axis=1) >= 0) & (last.min(axis=1) >= 0)
         while True:
             most = change[edge] * (end - start)[:, None]
@@ -172,7 +175,7 @@ class Space:
                 return free
             edge, start, end, first, last = (x[keep] for x in (edge, start, end, first, last))
             middle = (start + end) / 2
-            gaps = self._gaps(a[edge] + middle[:, None] * (b - a)[edge])
+            gaps = self._gaps(a[edge] + middle[:, None] * (b - a)[edge]) - less[edge]
             free[edge[gaps.min(axis=1) < 0]] = False
             edge = np.concatenate([edge, edge])
             start, end = np.concatenate([start, middle]), np.concatenate([middle, end])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -55,6 +55,17 @@ class Verification:
         """Nothing is wrong."""
         return not self.faults
 
+    def beside(self, timed: Verification) -> Verification:
+        """Of a motion through waypoints, with what is found of the same motion as it is timed."""
+        misses = [x for x in (self.path_miss, timed.path_miss) if x is not None]
+        return replace(
+            self,
+            faults=(*self.faults, *(f"as it is timed, {fault}" for fault in timed.faults)),
+            looked_at=self.looked_at + timed.looked_at,
+            path_miss=max(misses, default=None),
+            kept=tuple((max(a, c), max(b, d)) for (a, b), (c, d) in zip(self.kept, timed.kept, strict=True)),
+        )
+
     def __str__(self) -> str:
         if self.faults:
             return "refused by other code: " + "; ".join(self.faults)
@@ -75,6 +86,7 @@ def verify(
     keep: Sequence[Kept] = (),
     clearance: Clearance | None = None,
     margin: float = 0.0,
+    pace: tuple[Array, Array] | None = None,
 ) -> Verification:
     """Look at a motion through waypoints (K, n), straight in joint space, in steps of 2 mrad.
 
@@ -89,17 +101,29 @@ def verify(
         keep: What must be kept at every instant, through the pose at the start.
         clearance: Of which the motion must keep clear.
         margin: m.
+        pace: Times (K,) of the waypoints, s, and the accelerations (n,) that may not be exceeded; None: as fast as speeds
+            allow, and exactly through every waypoint along a tool path.
     """
     arm, faults = degraded.arm, []
     unit = max(arm.length_unit, 1.0)
     if np.abs(q[0] - at).max() > 1e-6:
         faults.append("the motion does not begin where the arm is")
-    replay = check_waypoints(arm, q, degraded, clearance=clearance if clearance is not None else False, margin=margin)
+    name, time = parameter(degraded.limited, q)
+    replay = check_waypoints(
+        arm,
+        q,
+        degraded,
+        clearance=clearance if clearance is not None else False,
+        margin=margin,
+        time=pace[0] if pace is not None else time if name == FIRST[0] else None,
+        accelerations=None if pace is None else pace[1],
+    )
     faults += [f"{name} leaves its limits by {miss:.3g}" for name, miss in replay.beyond_limits.items()]
     faults += [f"{name} is locked and moves by {miss:.3g}" for name, miss in replay.locks_moved.items()]
     if replay.least_room is not None and replay.least_room < margin:
         faults.append(f"the room at {replay.closest} is {replay.least_room:.4g} m")
-    faults += _too_fast(degraded, q)
+    faults += [f"{joint} is faster than it can be" for joint in replay.too_fast]
+    faults += [f"{joint} accelerates by {most:.4g}, more than it may" for joint, most in replay.too_hard.items()]
     poses = tool_poses(arm, finely(q)) if keep else np.zeros((0, 4, 4))
     faults += [f"the tool is {trouble}" for trouble in (one.trouble(poses) for one in keep) if trouble]
     exact_by = "" if clearance is None else "lower bounds of the distances"
@@ -126,7 +150,7 @@ def verify(
     if along is not None:
         path, places, part = along
         at_poses = float(np.abs(row_errors(arm, rows, q[part], path.pose(places))).max())
-        if at_poses > AT_WAYPOINTS * unit:
+        if pace is None and at_poses > AT_WAYPOINTS * unit:
             faults.append(f"the tool path is missed by {at_poses:.3g} (m or rad)")
         s = np.arange(1, _INNER + 1) / (_INNER + 1)
         inner = np.concatenate([a + s[:, None] * (b - a) for a, b in pairwise(q[part])])
@@ -144,15 +168,6 @@ def verify(
         path_miss=path_miss,
         kept=tuple(one.farthest(poses) for one in keep),
     )
-
-
-def _too_fast(degraded: Degraded, q: Array) -> list[str]:
-    name, time = parameter(degraded.limited, q)
-    if name != FIRST[0]:
-        return []
-    moved = np.abs(np.diff(q, axis=0))
-    slow = (moved > degraded.v * (np.diff(time)[:, None] + 1e-9) * (1 + 1e-9)) & np.isfinite(degraded.v) & (degraded.v > 0)
-    return [f"{degraded.arm.joint_names[k]} is faster than it can be" for k in np.flatnonzero(slow.any(axis=0))]
 
 
 def row_errors(arm: Arm, rows: Rows, q: Array, poses: Array) -> Array:

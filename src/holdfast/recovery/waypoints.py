@@ -2,28 +2,31 @@
 
 The first column is ``time_s`` (each straight piece at the velocity limit of its slowest joint, accelerations left aside) or,
 for an arm without velocity limits, ``travel_rad`` (length of the joints' motion so far, 1 m of a slide counted as 1 rad); the
-others are joints, ``joint1_rad`` or ``slide_m``. In between, joints move in a straight line.
+others are joints, ``joint1_rad`` or ``slide_m``. In between, joints move in a straight line. Of a motion that is timed within
+accelerations (:class:`holdfast.recovery.TimedMotion`) the rates and accelerations follow.
 """
 
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import real_numbers
 from holdfast.arm.model import Arm
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
-from holdfast.failures import Locked, degraded_at
+from holdfast.failures import Degraded, Locked, degraded_at
 from holdfast.files.output import writing
 from holdfast.keep.labels import KeepLike, all_kept
-from holdfast.paths.joint_table import joint_columns, read_joint_table
+from holdfast.paths.joint_table import JointTable, joint_columns, motion_columns, read_joint_table
+from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
@@ -60,16 +63,30 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
 
 
 def read_waypoints(arm: Arm, path: str | Path) -> Array:
-    """Waypoints (K, n), rad and m, that :func:`write_waypoints` wrote; the first column is not needed.
+    """Waypoints (K, n), rad and m, that :func:`write_waypoints` wrote; of other columns none is needed.
 
     Raises:
         InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
     """
-    table, wanted = read_joint_table(arm, Path(path), "waypoints", FIRST[0]), joint_columns(arm)
-    odd = [name for name in table.head if name not in wanted and name not in FIRST]
+    return _table(arm, path).numbers(joint_columns(arm))
+
+
+def read_times(arm: Arm, path: str | Path) -> Array | None:
+    """Times (K,) of such waypoints, s; None where the file has none.
+
+    Raises:
+        InputError: As for :func:`read_waypoints`.
+    """
+    table = _table(arm, path)
+    return table.numbers(FIRST[:1])[:, 0] if FIRST[0] in table.head else None
+
+
+def _table(arm: Arm, path: str | Path) -> JointTable:
+    table, known = read_joint_table(arm, Path(path), "waypoints", FIRST[0]), motion_columns(arm)
+    odd = [name for name in table.head if name not in FIRST and not any(name in names for names in known)]
     if odd:
-        raise InputError(f"{table.title}: column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *wanted])}")
-    return table.numbers(wanted)
+        raise InputError(f"{table.title}: column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *known[0]])}")
+    return table
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +104,10 @@ class WaypointCheck(Result):
         closest: Names of the pair that attains it, ``panda_joint4 & table``; empty where there is none.
         margin: m, that was asked for.
         kept: By how much each thing that should be kept all the way is broken, a phrase; empty where it is not.
+        too_fast: Joints faster than they can be, by name, with their greatest mean speed between two waypoints, rad/s or m/s;
+            empty where no times were given.
+        too_hard: The same of mean accelerations over two pieces, rad/s^2 or m/s^2, from standstill to standstill.
+        paced: What of these was looked at: ``speeds``, ``speeds and accelerations``, or nothing.
     """
 
     q: Array
@@ -99,11 +120,15 @@ class WaypointCheck(Result):
     closest: str
     margin: float
     kept: tuple[str, ...] = ()
+    too_fast: dict[str, float] = field(default_factory=dict)
+    too_hard: dict[str, float] = field(default_factory=dict)
+    paced: str = ""
 
     @property
     def ok(self) -> bool:
-        """True if limits, locks, rows and clearance are kept."""
-        return self._clear and not self.beyond_limits and not self.locks_moved and not any(self.kept)
+        """True if limits, locks, rows, clearance, and speeds and accelerations where they were looked at, are kept."""
+        broken = self.beyond_limits or self.locks_moved or self.too_fast or self.too_hard or any(self.kept)
+        return self._clear and not broken
 
     @property
     def _clear(self) -> bool:
@@ -114,6 +139,8 @@ class WaypointCheck(Result):
         lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
         lines += [f"{name} leaves its limits by {miss:.4g}" for name, miss in self.beyond_limits.items()]
         lines += [f"{name} should be locked and moves {miss:.4g} away" for name, miss in self.locks_moved.items()]
+        lines += [f"{name} is too fast: {rate:.4g} a second" for name, rate in self.too_fast.items()]
+        lines += [f"{name} accelerates by {rate:.4g} a second squared" for name, rate in self.too_hard.items()]
         lines += [f"the tool is {trouble}" for trouble in self.kept if trouble]
         if self.kept and not any(self.kept):
             lines.append("what is kept all the way is kept")
@@ -125,6 +152,8 @@ class WaypointCheck(Result):
             lines.append(f"least clearance {self.least_clearance:.4g} m ({where}margin {self.margin:g} m): {verdict}")
         if not self.beyond_limits and not self.locks_moved:
             lines.append("limits and locks are kept")
+        if self.paced and not self.too_fast and not self.too_hard:
+            lines.append(f"{self.paced} are kept")
         return lines
 
 
@@ -137,6 +166,8 @@ def check_waypoints(
     cell: CellLike | None = None,
     margin: float = 0.0,
     keep: KeepLike | None = None,
+    time: ArrayLike | None = None,
+    accelerations: AccelerationsLike | None = None,
 ) -> WaypointCheck:
     """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by code that shares nothing with the planner.
 
@@ -150,9 +181,12 @@ def check_waypoints(
             library for that is installed.
         margin: m that should be kept; from an object beyond what the cell keeps from it.
         keep: What the tool should keep along the whole motion; see :func:`holdfast.recover`.
+        time: (K,) s, of each waypoint; then differences must keep the speeds that are left.
+        accelerations: Limits that second differences must keep, from standstill to standstill; see :func:`holdfast.recover`.
 
     Raises:
-        InputError: Invalid waypoints, an unknown joint, or a cell that cannot be read or does not fit.
+        InputError: Invalid waypoints or times, an unknown joint, accelerations without times, or a cell that cannot be read or
+            does not fit.
     """
     a = np.atleast_2d(arm.check_configurations(q))
     if not len(a) or not np.isfinite(a).all():
@@ -175,7 +209,11 @@ def check_waypoints(
             least, room, closest = _nearest(sharp, fine)
     poses = arm.forward_kinematics(a)
     rows = all_kept(keep, poses[0])
+    too_fast, too_hard = _paced(arm, degraded, a, time, accelerations)
     return WaypointCheck(
+        too_fast=too_fast,
+        too_hard=too_hard,
+        paced="" if time is None else "speeds" if accelerations is None else "speeds and accelerations",
         q=a,
         poses=poses,
         kept=tuple(one.trouble(arm.forward_kinematics(fine)) for one in rows),
@@ -187,6 +225,36 @@ def check_waypoints(
         closest=closest,
         margin=margin,
     )
+
+
+def _paced(
+    arm: Arm, degraded: Degraded | None, q: Array, time: ArrayLike | None, accelerations: AccelerationsLike | None
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Joints that are too fast and those that accelerate too hard, by name, with means that some instant has at least."""
+    if time is None:
+        if accelerations is not None:
+            raise InputError("accelerations need times; give the time of each waypoint, or a file with a column time_s")
+        return {}, {}
+    t = real_numbers(time, "time", "a number for each waypoint, s")
+    if t.shape != (len(q),) or not np.isfinite(t).all() or (np.diff(t) < 0).any():
+        raise InputError(f"time must be {len(q)} finite numbers that never fall, one for each waypoint, s")
+    step = np.maximum(np.diff(t), 1e-12)[:, None]
+    rates = np.diff(q, axis=0) / step
+    speed = np.array([j.velocity for j in (arm if degraded is None else degraded.limited).joints])
+    noise = 8 * np.finfo(float).eps * np.abs(q).max(initial=1.0)
+    fastest = (np.abs(rates) - noise / step).max(axis=0, initial=0.0)
+    known = np.isfinite(speed) & (speed > 0)
+    found = fastest > np.where(known, speed * (1 + 1e-9), np.inf)
+    too_fast = {arm.joint_names[k]: float(fastest[k]) for k in np.flatnonzero(found)}
+    if accelerations is None or len(q) < 2:
+        return too_fast, {}
+    still = np.zeros((1, arm.n))
+    apart = np.concatenate([step[:1], step[:-1] + step[1:], step[-1:]]) / 2
+    change = np.diff(np.concatenate([still, rates, still]), axis=0) / apart
+    hardest = (np.abs(change) - 2 * noise / apart**2).max(axis=0)
+    most = limits_by_joint(arm, accelerations, np.ones(arm.n, dtype=bool) if degraded is None else degraded.moves)
+    found = hardest > np.where(most > 0, most * (1 + 1e-9), np.inf)
+    return too_fast, {arm.joint_names[k]: float(hardest[k]) for k in np.flatnonzero(found)}
 
 
 def _nearest(clearance: Clearance, q: Array) -> tuple[float, float, str]:

@@ -21,8 +21,10 @@ from holdfast.cli.options import (
     TipOption,
     check_unit_of_places,
     read_arm,
+    read_by_joint,
     read_configuration,
     read_locks,
+    read_numbers,
     read_pose,
     read_task,
 )
@@ -93,6 +95,16 @@ def command(
     time_limit: Annotated[
         float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.", show_default=False)
     ] = None,
+    accelerations: Annotated[
+        str | None,
+        typer.Option(
+            "--accelerations",
+            help="Limits, rad/s^2 and m/s^2, within which the motion is timed: a number, one per joint, or JOINT=NUMBER by "
+            "commas.",
+            show_default=False,
+        ),
+    ] = None,
+    period: Annotated[float, typer.Option("--period", help="s between the rows of a motion timed so.")] = 0.01,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     clearance: apart.ClearanceOption = None,
     capsules: apart.CapsulesOption = None,
@@ -122,10 +134,18 @@ def command(
     apart.check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
     shape = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes)
+    most = None if accelerations is None else _accelerations(model, accelerations)
     if check is not None:
         locked = read_locks(model, lock, degrees, alone=True, failure=failure) if lock or failure else ()
         replay = hf.recovery.check_waypoints(
-            model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0, keep=keep
+            model,
+            hf.recovery.read_waypoints(model, check),
+            locked,
+            clearance=shape,
+            margin=margin or 0.0,
+            keep=keep,
+            time=hf.recovery.read_times(model, check),
+            accelerations=most,
         )
         printed(replay, json_)
         if not replay.ok:
@@ -154,6 +174,8 @@ def command(
         starts=starts,
         tries=tries,
         time_limit=time_limit,
+        accelerations=most,
+        period=period,
         seed=seed,
     )
     files = [result.to_csv(csv)] if csv is not None and len(result.q) else []
@@ -164,6 +186,14 @@ def command(
         console(stderr=True).print(f"holdfast: no motion was found, so '{csv}' is not written", markup=False, soft_wrap=True)
     if not result.ok:
         raise typer.Exit(NOT_MET)
+
+
+def _accelerations(arm: Arm, text: str) -> Any:
+    """--accelerations as the library takes it."""
+    if "=" in text:
+        return read_by_joint(arm, text.replace(",", " ").split(), "--accelerations")
+    numbers = read_numbers("--accelerations", text, "a number, one per joint, or JOINT=NUMBER")
+    return numbers if len(numbers) > 1 else float(numbers[0])
 
 
 def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:

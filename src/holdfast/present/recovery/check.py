@@ -21,6 +21,8 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
         "configurations_looked_at": check.looked_at,
         "beyond_limits": check.beyond_limits,
         "locks_moved": check.locks_moved,
+        "too_fast": check.too_fast,
+        "too_hard": check.too_hard,
         "least_clearance_m": check.least_clearance,
         "least_room_m": check.least_room,
         "closest": check.closest or None,
@@ -37,6 +39,8 @@ def key_table(check: WaypointCheck) -> Rows:
         ["waypoints", str(len(check.q))],
         ["limits", ", ".join(check.beyond_limits) or "kept"],
         ["locks", ", ".join(check.locks_moved) or "kept"],
+        *([["too fast", ", ".join(check.too_fast)]] if check.too_fast else []),
+        *([["accelerates too hard", ", ".join(check.too_hard)]] if check.too_hard else []),
         *([["kept all the way", ", ".join(filter(None, check.kept)) or "kept"]] if check.kept else []),
         ["least clearance", clearance],
     ]

@@ -13,6 +13,7 @@ from holdfast.recovery.recovery import Ending
 from holdfast.words import capitalised, counted
 
 _FRAMES = 121
+TIMING = ("The timing", "Rates and accelerations of the joints, each in parts of its limit, over time.")
 _ANSWERS = {
     Ending.HOME: "the whole goal is met",
     Ending.HOME_WITH_ROWS_GIVEN_UP: "the goal is not met as a whole; a motion was found that gives rows up",
@@ -31,11 +32,12 @@ if TYPE_CHECKING:
 
     from holdfast.recovery.goals import RowsGivenUp
     from holdfast.recovery.recovery import Recovery
+    from holdfast.recovery.timing.motion import TimedMotion
 
 
 def to_dict(recovery: Recovery) -> dict[str, Any]:
     """What came of it: the ending, the motion, its check, what is left and what is given up."""
-    rest = recovery.rest
+    rest, timed = recovery.rest, recovery.timed
     return {
         **recovery.arm.entry(),
         "fingerprint": recovery.arm.fingerprint,
@@ -73,6 +75,16 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         ],
         "joints": recovery.arm.joint_names,
         "waypoints": recovery.q,
+        "timed": None
+        if timed is None
+        else {
+            "duration_s": timed.duration,
+            "without_accelerations_s": timed.without,
+            "accelerations": timed.accelerations,
+            "stops": timed.stops,
+            "rows": len(timed.time),
+            "period_s": timed.period,
+        },
         "check": recovery.check().to_dict() if len(recovery.q) else None,
         "clearance": None if recovery.clearance is None else shape_summary(recovery.clearance, recovery.margin),
         "keep": [kept.to_dict() for kept in recovery.keep],
@@ -100,6 +112,8 @@ def key_table(recovery: Recovery) -> Rows:
     ]
     if recovery.legs:
         rows.append(["length", f"{number(recovery.length)} {recovery.unit} (at least {number(recovery.lower_bound)})"])
+    if recovery.timed is not None:
+        rows.append(["takes", f"{number(recovery.timed.duration)} s within accelerations"])
     if recovery.left is not None and recovery.left.left is not None:
         rows.append(["of the workspace is left", str(recovery.left.left)])
     return Rows(["", ""], rows)
@@ -131,6 +145,8 @@ def story(recovery: Recovery) -> Story:
     facts = [(length, "length of the motion" if recovery.unit == "rad" else "duration of the motion")] if moves else []
     if moves:
         facts.append((f"{len(recovery.q)}", "waypoints, with straight lines in joint space between them"))
+    if moves and recovery.timed is not None:
+        facts.append((f"{number(recovery.timed.duration)} s", "it takes within the accelerations given"))
     if recovery.found:
         facts.append((f"{recovery.found:,}", "configurations of the goal were found"))
     if left is not None and left.left is not None:
@@ -155,7 +171,7 @@ def story(recovery: Recovery) -> Story:
         facts=facts,
         lines=[f"{capitalised(line).rstrip('.')}." for line in rest if left is None or line not in left.describe()],
         views=_view(recovery),
-        figures={"motion": None, **FIGURES},
+        figures={"motion": None, **({} if recovery.timed is None else {"timing": TIMING}), **FIGURES},
         tables=[Rows(["joint", "start", "end", ""], rows, "Where the joints begin and end")],
         method=[
             ("Goal", recovery.goal),
@@ -165,6 +181,7 @@ def story(recovery: Recovery) -> Story:
                 "Shortest",
                 "in joint space, 1 m of a slide as 1 rad" if recovery.unit == "rad" else "in time, within the velocity limits",
             ),
+            *([] if recovery.timed is None else [("Timing", _timing(recovery.timed))]),
             *(("Kept all the way", str(kept)) for kept in recovery.keep),
             ("Verified", "there is no motion" if recovery.verified is None else str(recovery.verified)),
             ("Clearance", "not looked at" if recovery.clearance is None else shape_text(recovery.clearance, recovery.margin)),
@@ -195,13 +212,23 @@ def _view(recovery: Recovery) -> list[tuple[str, list[Any]]]:
             )
         ]
     q, time = on_the_way(recovery.q, _FRAMES), np.linspace(0.0, 100.0, _FRAMES)
-    readings = [f"{share:.0f} % of the way" for share in time]
+    readings, at = [f"{share:.0f} % of the way" for share in time], "at one speed in joint space"
+    if recovery.timed is not None:
+        timed, time = recovery.timed, np.linspace(0.0, recovery.timed.time[-1], _FRAMES)
+        q = np.stack([np.interp(time, timed.time, column) for column in timed.q.T], axis=1)
+        readings, at = [f"{t:.2f} s" for t in time], "as it is timed within accelerations"
     shown = scene(recovery.arm, q, locked=locked, targets=goal, time=time, readings=readings, cell=recovery.cell)
-    words = (
-        "The motion with what is locked, at one speed in joint space."
-        + " The target of the end effector is marked." * bool(goal)
-    )
+    words = f"The motion with what is locked, {at}." + " The target of the end effector is marked." * bool(goal)
     return [("The motion", [Picture(shown.html("motion", words), words)])]
+
+
+def _timing(timed: TimedMotion) -> str:
+    moving = np.flatnonzero(timed.accelerations)
+    limits = ", ".join(f"{number(timed.accelerations[k])} {timed.arm.joints[k].unit}/s²" for k in moving)
+    return (
+        f"as fast as the speed limits and accelerations of {limits} allow, corners rounded where that is proved, by parabolas; "
+        f"rows every {number(timed.period)} s"
+    )
 
 
 def on_the_way(q: Any, count: int) -> Any:

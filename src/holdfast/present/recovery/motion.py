@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import partial
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from holdfast.present import results
 from holdfast.present.recovery.console import on_the_way
 from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, save_png, style
 from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view, view_spans
+from holdfast.report.timelines import COLORS
 from holdfast.report.views import SIDE, sides
 
 if TYPE_CHECKING:
@@ -29,13 +31,14 @@ _BETWEEN = 4  # ghosts of the arm on its way
 
 
 def drawings(recovery: Recovery) -> Drawings:
-    """The arm on its way, from the side and from above, and maps of what is left of the workspace, if that was asked for."""
+    """The arm on its way, from the side and from above, its timing, and maps of what is left, where these were asked for."""
     left: Drawings = {} if recovery.left is None else recovery.left._presented("drawings")
-    return {"motion": partial(_motion, recovery), **left}
+    timing: Drawings = {} if recovery.timed is None else {"timing": partial(_timing, recovery)}
+    return {"motion": partial(_motion, recovery), **timing, **left}
 
 
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
-    """recovery.json, motion.png, waypoints.csv if there is a motion, left.png if that was asked for, and report.html."""
+    """recovery.json, motion.png, waypoints.csv if there is a motion, timing.png and left.png if asked for, and report.html."""
     (file,) = put(folder, {"recovery.json": json.dumps(recovery.to_dict(), indent=2) + "\n"})
     drawn = recovery.figures()
     motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in drawn.items()]
@@ -95,6 +98,30 @@ def _motion(recovery: Recovery) -> Figure:
             color_bar(figure, scene, scale, list(panels), "fraction of the tool's path, %")
         legend_below(figure, panels[0], 5)
         figure.suptitle(plain(_title(recovery), 110), fontsize=10, x=0.01, ha="left")
+        return finished(figure)
+
+
+def _timing(recovery: Recovery) -> Figure:
+    """Rates and accelerations of the joints that move, in parts of their limits, over time."""
+    timed = recovery.timed
+    assert timed is not None
+    moving = np.flatnonzero(np.abs(timed.qd).max(axis=0) > 0)
+    speed = np.where(np.isfinite(recovery.degraded.v), recovery.degraded.v, np.abs(timed.qd).max(axis=0))
+    with style():
+        figure = Figure(figsize=(WIDTH, 4.6))
+        panels = figure.subplots(2, 1, sharex=True)
+        for axes, values, most, label in (
+            (panels[0], timed.qd, speed, "rate / limit"),
+            (panels[1], timed.qdd, timed.accelerations, "acceleration / limit"),
+        ):
+            for place in (-1, 0, 1):
+                axes.axhline(place, color=FAINT, linewidth=1.0, zorder=1)
+            for color, k in zip(cycle(COLORS), moving, strict=False):
+                axes.plot(timed.time, values[:, k] / most[k], color=color, linewidth=1.4, label=plain(timed.arm.joint_names[k]))
+            axes.set(ylabel=label, ylim=(-1.1, 1.1))
+        panels[1].set(xlabel="time, s")
+        legend_below(figure, panels[0], 4)
+        figure.suptitle(plain(f"{recovery.arm.name}: {timed.describe()}", 110), fontsize=10, x=0.01, ha="left")
         return finished(figure)
 
 

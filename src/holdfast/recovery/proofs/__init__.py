@@ -1,0 +1,1 @@
+"""That what is asked for cannot be done."""
