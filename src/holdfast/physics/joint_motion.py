@@ -53,7 +53,8 @@ def execute(
     Bodies, motors and locks are those of :func:`holdfast.simulate_physics`: a joint that locks while it moves stops at once,
     and the jolt goes through the arm. The arm starts at rest where the motion begins. Until a lock is noticed the other joints
     follow the motion as before; then it is run through ever more slowly, to a standstill, and ``at`` and ``degraded`` of the
-    result are what :func:`holdfast.recover` begins with. What it finds is carried out with ``locked=answer.degraded``. Joint limits do not stop the arm; whether they were kept is in the result.
+    result are what :func:`holdfast.recover` begins with. What it finds is carried out with ``locked=answer.degraded``. Joint
+    limits do not stop the arm; whether they were kept is in the result.
 
     Args:
         arm: The arm, with inertial data.
@@ -176,7 +177,7 @@ def _goal(goal: ArrayLike | None) -> Array | None:
 def _references(way: Array, seconds: Array, period: float, noticed: float, stop: float, settle: float) -> tuple[Array, bool]:
     """(K + 1, n) where the servos are to be at each control cycle, and whether that leads to the end of the motion."""
     end = float(seconds[-1])
-    over = not noticed + stop / 2 < end  # slowing down takes it half as far as going on
+    over = not noticed + stop / 2 < end  # slowing down takes it half as far as full speed
     last = end if noticed >= end else noticed + stop
     time = np.arange(int(np.ceil((last + settle) / period - 1e-9)) + 1) * period
     slowing = np.clip(time - noticed, 0.0, stop)

@@ -72,16 +72,16 @@ def _lag(run: Execution) -> str:
 
 
 def next_steps(run: Execution, name: str) -> list[str]:
-    """Where an arm that stopped goes on; else the motion as it was measured."""
+    """How an arm that stopped recovers; else the motion as it was measured."""
     if run.outcome == "stopped":
-        return [f"hf.recover({name}.arm, {name}.degraded, {name}.at, samples=0)  # how to go on"]
+        return [f"hf.recover({name}.arm, {name}.degraded, {name}.at, samples=0)  # what it can still do"]
     return [f'{name}.to_csv("motion.csv")', f'{name}.report("execution.html")']
 
 
 def story(run: Execution) -> Story:
     """Whether all that was asked for was done; the numbers; the arm moving."""
     first, *others = run.describe()
-    done = {"finished": "finished its motion", "stopped": "stopped on the way", "moving": "did not come to rest"}
+    done = {"finished": "finished its motion", "stopped": "stopped on the way", "moving": "was still moving at the end"}
     answer = f"{run.arm.name} {done.get(run.outcome, 'became unstable')}"
     faults = run.faults()[run.outcome != "finished" :]
     if faults:
