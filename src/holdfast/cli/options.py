@@ -88,6 +88,21 @@ QOption = Annotated[
     typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
 ]
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
+StartDegreesOption = Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")]
+PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)]
+PathTaskOption = Annotated[
+    str | None,
+    typer.Option(
+        "--task",
+        help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
+        "moves in a plane), else pose.",
+        show_default=False,
+    ),
+]
+DurationOption = Annotated[
+    float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
+]
+MotionCsvOption = Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)]
 PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
 OutOption = Annotated[Path | None, typer.Option("--out", help="Folder for report.html and figures.", show_default=False)]
 SeedOption = Annotated[int, typer.Option("--seed", help="Seed of all random draws.")]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,6 @@ from holdfast.notice import each
 from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
 _ALIKE = 1e-12  # of all that can be gathered: less is rounding
@@ -23,24 +23,24 @@ class Front:
     """The best motions up to a pose, one to each of its nodes; of equals the shortest, by its squared steps.
 
     Attributes:
+        gains: (P,) what each node of each pose is worth.
         extra: How much farther than allowed a joint may go from pose to pose, rad and m.
         ended: The last pose to which any motion leads, if it is not the last of all.
     """
 
-    def __init__(self, gain: Array, extra: float, alike: float) -> None:
-        self.extra, self._alike = extra, alike
+    def __init__(self, gains: list[Array], extra: float = 0.0) -> None:
+        self.gains, self.extra = gains, extra
         self.ended: int | None = None
-        self._total, self._way = gain, np.zeros(len(gain))
+        self._alike = _ALIKE * sum(float(g.max()) for g in gains)
+        self._total, self._way = gains[0], np.zeros(len(gains[0]))
         self._came: list[Index] = []
-        self._moves: list[Flags] = []
-        self._reached = [np.ones(len(gain), dtype=bool)]
 
-    def advance(self, far: Array, beyond: Array, gain: Array) -> None:
-        """To the next pose: squared distances of its nodes (Q, P), how far beyond what is allowed these are, and gains (Q,)."""
+    def advance(self, far: Array, beyond: Array) -> None:
+        """To the next pose: squared distances of its nodes (Q, P), and how far beyond what is allowed these are."""
         if self.ended is not None:
             return
-        allowed = beyond <= self.extra
-        gathered = np.where(allowed, self._total, -np.inf)
+        gain = self.gains[len(self._came) + 1]
+        gathered = np.where(beyond <= self.extra, self._total, -np.inf)
         most = gathered.max(axis=1)
         if not np.isfinite(most).any():
             self.ended = len(self._came)
@@ -49,15 +49,11 @@ class Front:
         source = price.argmin(axis=1)
         self._total, self._way = most + gain, price[np.arange(len(gain)), source]
         self._came.append(source)
-        self._moves.append(allowed)
-        self._reached.append(np.isfinite(most))
 
-    def on_motions(self) -> list[Flags]:
-        """(P,) for each pose: which of its nodes lie on a motion through all poses."""
-        alive = [self._reached[-1]]
-        for moves, reached in zip(reversed(self._moves), reversed(self._reached[:-1]), strict=True):
-            alive.append(reached & moves[alive[-1]].any(axis=0))
-        return alive[::-1]
+    @property
+    def most(self) -> float:
+        """What the best motion gathers; NaN if none leads to the last pose."""
+        return float(self._total.max()) if self.ended is None else float("nan")
 
     def motion(self) -> Index:
         """The node of every pose (T,)."""
@@ -68,24 +64,20 @@ class Front:
         return np.array(chosen[::-1])
 
 
-def best_motions(arm: Arm, nodes: list[Nodes], gains: list[Array], limit: Array, extras: Sequence[float]) -> list[Front]:
-    """Motions through all poses that gather most.
+def advanced(arm: Arm, nodes: list[Nodes], limit: Array, fronts: Sequence[Front]) -> None:
+    """Brings fronts from the first pose to the last.
 
     Args:
         arm: The arm.
         nodes: Of each pose.
-        gains: (P,) what each node of each pose is worth.
         limit: (n,) largest motion of each joint from pose to pose, rad and m; infinite where none is known.
-        extras: Each on top of it.
+        fronts: At the first pose.
     """
-    alike = _ALIKE * sum(float(g.max()) for g in gains)
-    fronts = [Front(gains[0], extra, alike) for extra in extras]
-    for a, b, gain in each("poses", list(zip(nodes[:-1], nodes[1:], gains[1:], strict=True)), whole=True):
+    for a, b in each("poses", list(pairwise(nodes)), whole=True):
         far = squared_distances(b.flat, a.flat)
         beyond = _beyond(arm, b, a, far, limit)
         for front in fronts:
-            front.advance(far, beyond, gain)
-    return fronts
+            front.advance(far, beyond)
 
 
 def _beyond(arm: Arm, b: Nodes, a: Nodes, far: Array, limit: Array) -> Array:

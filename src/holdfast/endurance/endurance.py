@@ -15,7 +15,7 @@ from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance.injection import Injection, drawn_locks, finished, healthy
-from holdfast.endurance.problem import Mode, Problem
+from holdfast.endurance.problem import Kind, Mode, Problem
 from holdfast.endurance.rates import FailureRates
 from holdfast.endurance.timed_motion import as_trajectory
 from holdfast.errors import InputError
@@ -33,6 +33,7 @@ Index = NDArray[np.int64]
 
 _LITTLE, _STILL = 0.3, 1e-6  # rad and m along a whole curve
 _WHOLE = 1e-9  # of a probability: less is rounding
+_AT: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -67,7 +68,8 @@ class Found:
     """What a search over all motions of the grid knows.
 
     Attributes:
-        bound: No motion of the grid survives more: at every instant the best node that lies on any motion along the path.
+        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
+            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
         interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
             exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
         spacing: Of the nodes, rad (and m).
@@ -75,6 +77,7 @@ class Found:
         curve: T arrays (P,) with the number of their curve.
         survives: T arrays (P, n): True where a lock there is survivable.
         moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
+        held: Joints that the motions looked at do not move, and where they are, rad and m; none with one degree of redundancy.
     """
 
     bound: float
@@ -84,6 +87,7 @@ class Found:
     curve: Sequence[Index]
     survives: Sequence[Flags]
     moved: Array
+    held: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -122,7 +126,8 @@ class Endurance(Result):
         survives: (T, n) True where a lock of the joint at that time is survived.
         kept: What the motion and the failed arm keep clear of, and by how much, m; or None.
         found: What the search for the best motion knows; None for a motion that was given.
-        exact: False where a verdict is only necessary: detours among obstacles, which are not looked for.
+        kind: Of every probability: ``exact``, up to the grid; ``upper bound``, of detours among obstacles, which are not looked
+            for; ``lower bound``, with more than one degree of redundancy, where not every way on after a lock is looked at.
         beside: Other motions along the path.
         injected: Locks that were tried on it, if somebody did; see :meth:`inject`.
     """
@@ -138,7 +143,7 @@ class Endurance(Result):
     survives: Flags
     kept: tuple[Clearance, float] | None = None
     found: Found | None = None
-    exact: bool = True
+    kind: Kind = "exact"
     beside: tuple[Compared, ...] = ()
     injected: Injection | None = None
     _problem: Problem = field(repr=False)
@@ -158,7 +163,7 @@ class Endurance(Result):
             survives=survives,
             kept=problem.kept,
             found=found,
-            exact=problem.mode == "on-path" or problem.kept is None,
+            kind=problem.kind,
             _problem=problem,
         )
 
@@ -169,13 +174,13 @@ class Endurance(Result):
 
     @property
     def bound(self) -> float | None:
-        """No motion survives more, up to the grid; None for a motion that was given."""
-        return None if self.found is None else self.found.bound
+        """No motion survives more, up to the grid; None for a motion that was given, and where nobody knows."""
+        return None if self.found is None or self.kind == "lower bound" else self.found.bound
 
     @property
     def gap(self) -> float | None:
         """How far the motion is from the bound, at most."""
-        return None if self.found is None else max(self.found.bound - self.survival, 0.0)
+        return None if self.bound is None else max(self.bound - self.survival, 0.0)
 
     @property
     def interval(self) -> tuple[float, float] | None:
@@ -227,9 +232,9 @@ class Endurance(Result):
     def never(self) -> tuple[float, str] | None:
         """The first sample, s, at which no configuration of the pose survives every lock, and the joint that is lost.
 
-        So no motion at all is guaranteed. None if there is no such sample, or if the motion was given.
+        So no motion at all is guaranteed. None if there is no such sample, or if the motion was given, or of a lower bound.
         """
-        if self.found is None:
+        if self.found is None or self.kind == "lower bound":
             return None
         counts = self.rates.each > 0
         for t, survives in enumerate(self.found.survives):
@@ -291,6 +296,7 @@ class Endurance(Result):
         time, joint = drawn_locks(self._problem, locks, generator)
         survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint)
         before = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2)
+        survived |= self._problem.stays(self.q)[before, joint]
         expected = self.survives[before, joint]
         return Injection(
             time=time,
@@ -317,7 +323,7 @@ class Endurance(Result):
 
     def _set_by_the_pose(self) -> list[str]:
         """Why some locks are hardly survived by any motion, of full poses above all that of an elbow."""
-        if self.found is None:
+        if self.found is None or self.kind == "lower bound":
             return []
         joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0))
         lines = []
@@ -334,13 +340,18 @@ class Endurance(Result):
         """The answer in a sentence."""
         if self.guaranteed:
             return "every lock of a joint, at any sample of the path, is survived"
-        return f"{percent(self.survival)} of all locks of a joint on the way are survived"
+        return f"{_AT[self.kind]}{percent(self.survival)} of all locks of a joint on the way are survived"
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         how = "without leaving the path" if self.mode == "on-path" else "with detours"
         lines = [f"{self.arm.title}, {self.path.describe()}: {self.headline}, {how}"]
-        if self.found is not None:
+        if self.kind == "lower bound":
+            lines.append(
+                "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
+                f"that hold {self.arm.n - self.task.m - 1} more of its joints"
+            )
+        elif self.found is not None:
             low, high = self.found.interval
             lines.append(
                 f"no motion survives more than {percent(self.found.bound)}, up to the grid of {len(self.time)} poses and "
@@ -371,7 +382,7 @@ class Endurance(Result):
             lines.append(f"the motion takes {self.speed:.3g} times the velocity limit of a joint: slow the path down")
         if self.lost is not None:
             lines.append(f"probability that a lock loses the path: {self.lost:.3g}")
-        if not self.exact:
+        if self.kind == "upper bound":
             lines.append("detours among obstacles were not looked for: every probability is an upper bound")
         jump = self.jump
         lines.append(

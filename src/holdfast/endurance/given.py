@@ -63,7 +63,7 @@ def endurance_of(
 
     Raises:
         InputError: A motion that is not on the path, rates or options that do not fit.
-        TaskError: No redundancy, or more than one degree of it.
+        TaskError: No redundancy, or detours with more than one degree of it.
     """
     problem = posed(
         arm, path, rates, per_second, mode, task, samples, clearance, cell, margin, spacing=spacing, seed=seed, starts=starts

@@ -69,10 +69,18 @@ def drawn_locks(problem: Problem, locks: int, generator: np.random.Generator) ->
 
 def finished(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
     """(N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path."""
-    return (_on_path if problem.mode == "on-path" else _with_detours)(problem, q, time, joint)
+    if problem.mode == "detour":
+        return _with_detours(problem, q, time, joint)
+    if problem.spare == 1:
+        return _on_path(problem, q, time, joint, tuple(problem.immobile))
+    survived = np.zeros(len(q), dtype=bool)
+    for held in problem.sets:  # the failed arm may hold any of them
+        some = np.flatnonzero(~survived & ~np.isin(joint, held))
+        survived[some] = _on_path(problem, q[some], time[some], joint[some], (*problem.immobile, *held))
+    return survived
 
 
-def _on_path(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
+def _on_path(problem: Problem, q: Array, time: Array, joint: Index, held: tuple[int, ...]) -> Flags:
     """The branch through (joints, time) by its arc length, with Runge and Kutta's steps of fourth order.
 
     Where time turns back on it the branch ends: nothing goes on from there along the path.
@@ -88,34 +96,34 @@ def _on_path(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
             if not left.size:
                 break
             lock = joint[left]
-            first = _direction(problem, state, lock, tangent, scale)
-            second = _direction(problem, state + _STEP / 2 * first, lock, first, scale)
-            third = _direction(problem, state + _STEP / 2 * second, lock, second, scale)
-            fourth = _direction(problem, state + _STEP * third, lock, third, scale)
+            first = _direction(problem, state, (lock, held), tangent, scale)
+            second = _direction(problem, state + _STEP / 2 * first, (lock, held), first, scale)
+            third = _direction(problem, state + _STEP / 2 * second, (lock, held), second, scale)
+            fourth = _direction(problem, state + _STEP * third, (lock, held), third, scale)
             state = state + _STEP / 6 * (first + 2 * second + 2 * third + fourth)
             tangent = fourth
-            here = state[:, :-1]
-            over = state[:, -1] >= _WHOLE
+            over = (state[:, -1] >= _WHOLE) & (fourth[:, -1] > 0)
+            # What has passed the end of the path is judged there, not where its step went.
+            back = np.where(over, (state[:, -1] - _WHOLE) / np.where(over, fourth[:, -1], 1.0), 0.0)
+            here = state[:, :-1] - back[:, None] * fourth[:, :-1]
             good = ((here >= arm.lower - 1e-9) & (here <= arm.upper + 1e-9)).all(axis=1) & (fourth[:, -1] > 0)
             if problem.kept is not None:
                 good &= problem.kept[0].room(here) >= problem.kept[1] - 1e-9
             ended = np.flatnonzero(over & good)
-            survived[left[ended]] = _on_last_pose(problem, here[ended], fourth[ended], state[ended, -1])
+            survived[left[ended]] = _on_last_pose(problem, here[ended])
             go_on = good & ~over
             tell(int(np.count_nonzero(~go_on)))
             left, state, tangent = left[go_on], state[go_on], tangent[go_on]
     return survived
 
 
-def _on_last_pose(problem: Problem, q: Array, tangent: Array, at: Array) -> Flags:
+def _on_last_pose(problem: Problem, q: Array) -> Flags:
     """Whether branches that have passed the end did so on the last pose."""
-    back = (at - _WHOLE) / tangent[:, -1]
-    ends = q - back[:, None] * tangent[:, :-1]
     last = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
-    return np.asarray(np.max(solver(problem.arm, problem.task).errors(ends, last), axis=0, initial=0.0) <= _OFF)
+    return np.asarray(np.max(solver(problem.arm, problem.task).errors(q, last), axis=0, initial=0.0) <= _OFF)
 
 
-def _direction(problem: Problem, state: Array, lock: Index, before: Array, scale: float) -> Array:
+def _direction(problem: Problem, state: Array, stopped: tuple[Index, tuple[int, ...]], before: Array, scale: float) -> Array:
     """(N, n + 1) unit tangent of the branch at (joints, scaled time), the way that it ran ``before``."""
     arm, task = problem.arm, problem.task
     n, rows = arm.n, np.arange(len(state))
@@ -127,7 +135,10 @@ def _direction(problem: Problem, state: Array, lock: Index, before: Array, scale
         columns = np.concatenate([turned @ columns[:, :3], turned @ columns[:, 3:]], axis=1)
     system = np.zeros((len(state), n + 1, n + 1))
     system[:, : task.m] = task.rows @ columns
+    lock, held = stopped
     system[rows, task.m, lock] = 1.0
+    for k, other in enumerate(held):
+        system[:, task.m + 1 + k, other] = 1.0
     system[:, n] = before
     wanted = np.zeros((len(state), n + 1, 1))
     wanted[:, n] = 1.0
@@ -168,6 +179,8 @@ def healthy(problem: Problem, q: Array, time: Array) -> Array:
     poses = problem.path.pose(time)
     found = problem.lock.tracer.corrected(between, poses)[0]
     inside = np.clip(found, arm.lower, arm.upper)
+    if problem.spare > 1:
+        return inside
     beyond = np.flatnonzero((found != inside).any(axis=1))  # of a motion along a limit
     limit = np.abs(found - inside)[beyond].argmax(axis=1)
     back, good = problem.lock.held(inside[beyond], limit, poses[beyond])

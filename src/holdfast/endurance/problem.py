@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Literal
 
 import numpy as np
@@ -19,20 +20,33 @@ from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
 from holdfast.paths.timed_path import TimedPath
+from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.self_motions import SelfMotion, fibres, tracer
+from holdfast.solvers.self_motions import SelfMotion, traced, tracer
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 Mode = Literal["on-path", "detour"]
+Kind = Literal["exact", "upper bound", "lower bound"]
 
 ON = 1e-3  # m and rad that a configuration given may be off the path
+_IMMOBILE = 1e-9  # rad and m between the limits of a joint that does not move, or in a motion
+_SETS = 24  # of joints that a failed arm may hold
+_FIRST, _STARTS = 3, 64  # configurations of the first pose that are tried, of so many starts
+_COARSE, _FEWEST = 0.15, 11  # rad between nodes, and poses, of what is only tried
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Problem:
-    """What is asked."""
+    """What is asked.
+
+    Attributes:
+        spare: Degrees of redundancy, less the joints that cannot move.
+        kind: What a verdict on a lock is: exact, up to the grid; an upper bound, of detours among obstacles, which are not
+            looked for; or a lower bound, where more than one degree of redundancy leaves a failed arm more ways than are
+            looked at.
+    """
 
     arm: Arm
     path: TimedPath
@@ -46,27 +60,88 @@ class Problem:
     seed: int
     starts: int
 
+    @property
+    def kind(self) -> Kind:
+        """What a verdict is."""
+        if self.spare > 1:
+            return "lower bound"
+        return "upper bound" if self.mode == "detour" and self.kept is not None else "exact"
+
+    @property
+    def spare(self) -> int:
+        """Degrees of redundancy of the joints that can move."""
+        return self.arm.n - self.task.m - len(self.immobile)
+
+    @cached_property
+    def immobile(self) -> dict[int, float]:
+        """Joints that cannot move, and where they are."""
+        joints = np.flatnonzero(self.arm.upper - self.arm.lower <= _IMMOBILE)
+        return {int(k): float(self.arm.lower[k]) for k in joints}
+
+    def holding(self, others: Mapping[int, float]) -> Problem:
+        """The same for motions along which other joints stay at values too, rad and m, beside those that cannot move."""
+        return replace(self, lock=replace(self.lock, tracer=tracer(self.arm, self.task, {**self.immobile, **others})))
+
+    @cached_property
+    def sets(self) -> list[tuple[int, ...]]:
+        """Joints that can be held so that one degree of redundancy is left; of many some, drawn."""
+        mobile = [k for k in range(self.arm.n) if k not in self.immobile]
+        every = list(combinations(mobile, self.spare - 1))
+        order = np.random.default_rng(np.random.SeedSequence(self.seed)).permutation(len(every))
+        return [every[k] for k in order[:_SETS]]
+
+    def coarser(self) -> Problem:
+        """The same on fewer poses and nodes, for trying."""
+        time = np.linspace(0.0, self.path.duration, max(len(self.time) // 4, _FEWEST))
+        lock = Lock.along(self.arm, self.lock.tracer, self.path, time, self.kept)
+        return replace(self, time=time, lock=lock, spacing=max(self.spacing, _COARSE))
+
+    def first(self) -> Array:
+        """(K, n) a few configurations of the first pose, far apart."""
+        q = self.lock.tracer.seeds(self.lock.poses[:1], np.zeros(1, dtype=np.intp), self.seed, _STARTS)[1]
+        if self.kept is not None:
+            q = q[self.kept[0].room(q) >= self.kept[1]]
+        chosen = [0] * bool(len(q))
+        while 0 < len(chosen) < min(_FIRST, len(q)):
+            away = np.min([np.linalg.norm(joint_space.difference(self.arm, q, q[k]), axis=1) for k in chosen], axis=0)
+            chosen.append(int(away.argmax()))
+        return np.asarray(q[chosen])
+
     def judge(self, q: Array) -> Flags:
         """(T, n) which locks of a motion (T, n) are survived; none where it is NaN."""
         if self.mode == "on-path":
-            return tables.along(self.lock, q)
+            return self.followed(q)
         return np.array([tables.within(self.arm, x[None], at)[0] for x, at in zip(q, self._ranges, strict=True)])
+
+    def followed(self, q: Array) -> Flags:
+        """(T, n) as :meth:`judge`, without leaving the path.
+
+        With more than one degree of redundancy the failed arm goes on with further joints held, so that it has one way; a lock
+        is survived if one such way leads to the end, or if the motion itself does not move the joint any more.
+        """
+        if self.spare == 1:
+            return tables.along(self.lock, q)
+        survives = self.stays(q)
+        for held in self.sets:
+            asked = ~survives
+            asked[:, list(held)] = False
+            if asked.any():
+                survives |= tables.along(self.holding(dict.fromkeys(held, 0.0)).lock, q, asked)
+        return survives
+
+    def stays(self, q: Array) -> Flags:
+        """(T, n) where a motion (T, n) is there to its end and moves the joint no more: with redundancy left, it goes on."""
+        there = np.isfinite(q).all(axis=1, keepdims=True)
+        moves = np.abs(q - q[-1]) > _IMMOBILE
+        lost = (~there | moves | (self.spare == 1))[::-1]
+        return np.asarray(~np.logical_or.accumulate(lost)[::-1])
 
     @cached_property
     def fibres(self) -> list[SelfMotion]:
         """The self-motion curves of every pose."""
         kept, margin = self.kept or (None, 0.0)
-        return fibres(
-            self.arm,
-            self.lock.poses,
-            self.task,
-            spacing=self.spacing,
-            seed=self.seed,
-            starts=self.starts,
-            follow=True,
-            clearance=kept,
-            margin=margin,
-        )
+        options = {"spacing": self.spacing, "seed": self.seed, "starts": self.starts, "clearance": kept, "margin": margin}
+        return traced(self.lock.tracer, self.task, self.lock.poses, follow=True, **options)  # type: ignore[arg-type]
 
     @cached_property
     def _ranges(self) -> list[list[tables.Spans]]:
@@ -98,7 +173,7 @@ def posed(
 
     Raises:
         InputError: Options that do not fit.
-        TaskError: No redundancy, or more than one degree of it.
+        TaskError: No redundancy, or detours with more than one degree of it.
     """
     if mode not in ("on-path", "detour"):
         raise InputError(f"mode is '{mode}'; use 'on-path' or 'detour'")
@@ -107,19 +182,12 @@ def posed(
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     rows = as_task(arm, task_of_path(arm, path.path.oriented) if task is None else task)
-    if arm.n - rows.m != 1:
-        advice = (
-            "without redundancy almost every lock loses the path; choose a task with fewer rows"
-            if arm.n <= rows.m
-            else "more than one degree of redundancy is not done yet; choose a task with more rows, or lock a joint"
-        )
-        raise TaskError(f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows: {advice}")
     clear = chosen_clearance(arm, clearance, cell, looks=False)
     if clear is None and margin:
         raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")
     kept = None if clear is None else (clear, margin)
     time = np.linspace(0.0, path.duration, samples)
-    return Problem(
+    problem = Problem(
         arm=arm,
         path=path,
         task=rows,
@@ -132,3 +200,17 @@ def posed(
         seed=seed,
         starts=starts,
     )
+    if problem.spare < 1:
+        fixed = f", {len(problem.immobile)} of which cannot move," if problem.immobile else ""
+        raise TaskError(
+            f"'{arm.name}' has {arm.n} joints{fixed} and the task '{rows.name}' {rows.m} rows: without redundancy almost every "
+            "lock loses the path; choose a task with fewer rows"
+        )
+    if problem.spare == 1:
+        return problem.holding({}) if problem.immobile else problem
+    if mode == "detour":
+        raise TaskError(
+            f"'{arm.name}' has {problem.spare} degrees of redundancy for the task '{rows.name}'; detours are looked at "
+            "with one: use the mode on-path, or choose a task with more rows"
+        )
+    return problem

@@ -13,7 +13,7 @@ from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.choice import best_motions
+from holdfast.endurance.choice import Front, advanced
 from holdfast.endurance.comparison import beside
 from holdfast.endurance.endurance import Endurance, Found
 from holdfast.endurance.grid import Nodes, nodes_of
@@ -22,7 +22,7 @@ from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.endurance.smoothing import smoothed
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
-from holdfast.notice import says
+from holdfast.notice import each, says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
@@ -31,6 +31,7 @@ from holdfast.solvers.self_motions import STARTS
 Array = NDArray[np.float64]
 
 _ALIKE = 1e-9  # of a probability: less is rounding
+_TRIED = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
 
 
 @checked
@@ -55,10 +56,13 @@ def endure(
 ) -> Endurance:
     """The motion along a path after which most locks of a joint, whichever and whenever, leave the rest of the path possible.
 
-    Every configuration of every pose is looked at (for one degree of redundancy: the self-motion curves, at points
-    ``spacing`` apart), with the question whether the path can be finished if joint i locks there. Dynamic programming then
-    finds the motion over these points that survives most: the best there is, up to the grid. Of motions that are equal it
-    takes the shortest, and smooths it where that costs nothing. A motion within the velocity limits comes first.
+    With one degree of redundancy every configuration of every pose is looked at (its self-motion curves, at points ``spacing``
+    apart), with the question whether the path can be finished if joint i locks there. Dynamic programming then finds the
+    motion over these points that survives most: the best there is, up to the grid. Of motions that are equal it takes the
+    shortest, and smooths it where that costs nothing. A motion within the velocity limits comes first.
+
+    With more redundancy the result is a lower bound: of the motions only those are looked at that hold further joints where
+    they are, and of a failed arm only the ways on that do; which joints, and where, is drawn and tried.
 
     Args:
         arm: The arm.
@@ -87,7 +91,7 @@ def endure(
 
     Raises:
         InputError: Rates, a start or options that do not fit.
-        TaskError: No redundancy, or more than one degree of it.
+        TaskError: No redundancy, or detours with more than one degree of it.
         HoldfastError: A pose without a (clear) configuration, or no continuous motion along the path.
 
     Source: sets of values that a joint may be locked at, Lewis and Maciejewski 1997; survival over a whole path, its optimum
@@ -96,50 +100,110 @@ def endure(
     problem = posed(
         arm, path, rates, per_second, mode, task, samples, clearance, cell, margin, spacing=spacing, seed=seed, starts=starts
     )
-    lock, poses = problem.lock, problem.lock.poses
-    found = problem.fibres
-    for time, each in zip(problem.time, found, strict=True):
-        if not len(each.q):
-            raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {each.describe()[0]}")
-    nodes = nodes_of(arm, found)
-    if start is not None:
-        nodes[0] = Nodes.single(arm, _begun(problem, start), spacing)
-    table = tables.on_path(lock, nodes) if mode == "on-path" else tables.detours(nodes, found)
-    weights = problem.rates.weights(problem.time)
-    gains = [w * v.survives @ problem.rates.each for w, v in zip(weights, table, strict=True)]
-    limit = np.array([j.velocity for j in arm.joints]) * float(np.diff(problem.time).max())
-    whole = float(weights.sum()) * problem.rates.total
-    fronts = best_motions(arm, nodes, gains, limit, (0.0, spacing))
-    ended = fronts[1].ended
-    if ended is not None:
-        raise HoldfastError(
-            f"no continuous motion along the path was found: it ends at {problem.time[ended]:.4g} s; slow the path down, take "
-            "more samples, or prescribe fewer rows"
-        )
-    motions = [None if front.ended is not None else front.motion() for front in fronts]
-    gathered = [np.nan if m is None else sum(float(g[k]) for g, k in zip(gains, m, strict=True)) / whole for m in motions]
-    known = Found(
-        bound=float(sum(g[some].max() for g, some in zip(gains, fronts[1].on_motions(), strict=True))) / whole,
-        interval=(gathered[0], gathered[1]),
-        spacing=spacing,
-        nodes=[x.q for x in nodes],
-        curve=[x.curve for x in nodes],
-        survives=[v.survives for v in table],
-        moved=np.max([np.ptp(c.q, axis=0) for each in found for c in each.components], axis=0),
-    )
-    results = []
-    for chosen, most in zip(motions, gathered, strict=True):
-        if chosen is None:
-            continue
-        q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
-        smooth = smoothed(lock.tracer, nodes, table, gains, chosen, q, poses, held=start is not None)
-        made = Endurance.of(problem, smooth, survives=problem.judge(smooth), found=known)
-        if made.survival < most - _ALIKE:  # smoothing has cost something
-            made = Endurance.of(problem, q, survives=problem.judge(q), found=known)
-        results.append(made)
-    # What the joints can do comes first; of equals the first.
-    best = max(results, key=lambda r: (r.speed <= 1 + _ALIKE, round(r.survival, 9)))
+    begin = None if start is None else _begun(problem, start)
+    best = _Curves(problem, begin).motion(problem) if problem.spare == 1 else _holding(problem, begin)
     return best if not compare else beside(problem, best, compare, seed)
+
+
+class _Curves:
+    """The motions over the self-motion curves of every pose, of a problem that leaves one degree of redundancy.
+
+    Attributes:
+        most: What the best of them survives, of those within the velocity limits, and with the spacing on top; NaN: none.
+    """
+
+    def __init__(self, problem: Problem, begin: Array | None) -> None:
+        self._problem, self._held = problem, begin is not None
+        arm, lock = problem.arm, problem.lock
+        self._found = problem.fibres
+        for time, pose in zip(problem.time, self._found, strict=True):
+            if not len(pose.q):
+                raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {pose.describe()[0]}")
+        self._nodes = nodes_of(arm, self._found)
+        if begin is not None:
+            self._nodes[0] = Nodes.single(arm, begin, problem.spacing)
+        of_path = problem.mode == "on-path"
+        self._table = tables.on_path(lock, self._nodes) if of_path else tables.detours(self._nodes, self._found)
+        weights = problem.rates.weights(problem.time)
+        self._gains = [w * v.survives @ problem.rates.each for w, v in zip(weights, self._table, strict=True)]
+        limit = np.array([j.velocity for j in arm.joints]) * float(np.diff(problem.time).max())
+        self._whole = float(weights.sum()) * problem.rates.total
+        near = [w * v.most_near(x, problem.rates.each) for w, v, x in zip(weights, self._table, self._nodes, strict=True)]
+        self._fronts, bound = (Front(self._gains), Front(self._gains, problem.spacing)), Front(near, problem.spacing)
+        advanced(arm, self._nodes, limit, (*self._fronts, bound))
+        if bound.ended is not None:
+            raise HoldfastError(
+                f"no continuous motion along the path was found: it ends at {problem.time[bound.ended]:.4g} s; slow the path "
+                "down, take more samples, or prescribe fewer rows"
+            )
+        self._bound = bound.most / self._whole
+        self.most = self._fronts[0].most / self._whole, self._fronts[1].most / self._whole
+
+    def motion(self, asked: Problem) -> Endurance:
+        """The best, made smooth and judged as it was asked for."""
+        problem, nodes, table = self._problem, self._nodes, self._table
+        arm, lock = problem.arm, problem.lock
+        known = Found(
+            bound=self._bound,
+            interval=self.most,
+            spacing=problem.spacing,
+            nodes=[x.q for x in nodes],
+            curve=[x.curve for x in nodes],
+            survives=[v.survives for v in table],
+            moved=np.max([np.ptp(c.q, axis=0) for each in self._found for c in each.components], axis=0),
+            held={arm.joint_names[k]: x for k, x in lock.tracer.held.items() if k not in problem.immobile},
+        )
+        results = []
+        for front, most in zip(self._fronts, self.most, strict=True):
+            if front.ended is not None:
+                continue
+            chosen = front.motion()
+            q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
+            smooth = smoothed(lock.tracer, nodes, table, self._gains, chosen, q, lock.poses, held=self._held)
+            made = Endurance.of(asked, smooth, survives=asked.judge(smooth), found=known)
+            if made.survival < most - _ALIKE or made.speed > 1 + _ALIKE:  # smoothing may have cost something
+                plain = Endurance.of(asked, q, survives=asked.judge(q), found=known)
+                made = max(made, plain, key=_goodness)
+            results.append(made)
+        return max(results, key=_goodness)  # of equals the first
+
+
+def _holding(problem: Problem, begin: Array | None) -> Endurance:
+    """The best of motions that hold all joints but those that leave one degree of redundancy.
+
+    Which joints, and where, is looked for on a coarse grid; the best few are then looked at on the grid that was asked for.
+    """
+    first = problem.first() if begin is None else begin[None]
+    coarse, tried = problem.coarser(), []
+    for q in each("configurations of the first pose", list(first)):
+        for joints in problem.sets:
+            values = {k: float(q[k]) for k in joints}
+            try:
+                within, over = _Curves(coarse.holding(values), begin).most
+            except HoldfastError:
+                continue
+            tried.append((not np.isnan(within), over if np.isnan(within) else within, values))
+    if not tried:
+        raise HoldfastError(
+            f"no continuous motion along the path was found that holds {problem.spare - 1} joints: slow the path down, or give "
+            "another start"
+        )
+    tried.sort(key=lambda x: x[:2], reverse=True)
+    results, failed = [], None
+    for _, _, values in tried[:_TRIED]:
+        try:
+            results.append(_Curves(problem.holding(values), begin).motion(problem))
+        except HoldfastError as error:  # the finer grid of poses holds one that the coarse one had not
+            failed = error
+    if not results:
+        assert failed is not None
+        raise failed
+    return max(results, key=_goodness)
+
+
+def _goodness(made: Endurance) -> tuple[bool, float]:
+    """What the joints can do comes first."""
+    return made.speed <= 1 + _ALIKE, round(made.survival, 9)
 
 
 def _begun(problem: Problem, start: ArrayLike) -> Array:

@@ -42,6 +42,18 @@ class Verdicts:
         after = np.where(share < self.edge[behind, joint], behind, nodes.after[behind])
         return np.asarray(self.survives[after, joint])
 
+    def most_near(self, nodes: Nodes, rates: Array) -> Array:
+        """(P,) the largest sum of rates (n,) of survived locks at each node and up to halfway to its neighbours."""
+        here, there = self.survives, self.survives[nodes.after]
+        known = np.isfinite(self.edge)
+        ahead, behind = np.zeros((2, len(here)))  # of each piece in its first half, and in its second
+        # Along a piece verdicts change one after the other: with each change, and in the middle, something new may be had.
+        for place in (np.zeros(len(here)), np.full(len(here), 0.5), *self.edge.T):
+            sums = np.where(known, np.where(place[:, None] < self.edge, here, there), here | there) @ rates
+            np.maximum(ahead, sums, out=ahead, where=~(place > 0.5))
+            np.maximum(behind, sums, out=behind, where=~(place < 0.5))
+        return np.where(nodes.before == np.arange(len(here)), ahead, np.maximum(ahead, behind[nodes.before]))
+
     def kept_share(self, node: int, other: int, *, ahead: bool) -> float:
         """How far a node may go towards its neighbour, ahead of it or behind, and lose nothing: 0 to 1, rather too little."""
         lost = self.survives[node] & ~self.survives[other]
@@ -169,21 +181,21 @@ def _shared(a: Spans, b: Spans) -> Spans:
     return sorted((low, high) for low, high in both if low <= high)
 
 
-def along(lock: Lock, q: Array) -> Flags:
+def along(lock: Lock, q: Array, asked: Flags | None = None) -> Flags:
     """(T, n) as :func:`on_path` for one configuration q (T, n) of each pose: every lock is followed to the end.
 
-    Where q is NaN none is.
+    Only those ``asked`` (T, n) if given; where q is NaN none is.
     """
     survives = np.zeros(q.shape, dtype=bool)
-    there: Flags = np.asarray(np.isfinite(q).all(axis=1))
-    survives[-1] = there[-1]
-    n = lock.arm.n
-    at = np.empty((0, n))
+    there = np.isfinite(q).all(axis=1, keepdims=True)
+    wanted = np.broadcast_to(there, q.shape) if asked is None else asked & there
+    survives[-1] = wanted[-1]
+    at = np.empty((0, lock.arm.n))
     begun, joint = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     for t in each("poses", range(len(q) - 1)):
-        fresh = n if there[t] else 0
-        at = np.concatenate([at, np.repeat(q[t : t + 1], fresh, axis=0)])
-        begun, joint = np.concatenate([begun, np.full(fresh, t)]), np.concatenate([joint, np.arange(fresh)])
+        fresh = np.flatnonzero(wanted[t])
+        at = np.concatenate([at, np.repeat(q[t : t + 1], fresh.size, axis=0)])
+        begun, joint = np.concatenate([begun, np.full(fresh.size, t)]), np.concatenate([joint, fresh])
         at, good = lock.step(at, joint, t)
         at, begun, joint = at[good], begun[good], joint[good]
     survives[begun, joint] = True

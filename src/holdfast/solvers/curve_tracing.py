@@ -5,6 +5,8 @@ Source: Goel, Maciejewski, Balakrishnan 2005, section on self-motion manifolds; 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
 
 import casadi as ca
@@ -67,12 +69,32 @@ class _Run:
 
 
 class Tracer:
-    """The compiled predictor and corrector of one arm and task."""
+    """The compiled predictor and corrector of one arm and task.
 
-    def __init__(self, arm: Arm, task: Task) -> None:
+    Attributes:
+        arm, task: What moves, and what it keeps.
+        free: Degrees of redundancy that are left.
+        held: Joints that stay, by index from 0, and the values, rad or m, at which curves are looked for.
+    """
+
+    def __init__(self, arm: Arm, task: Task, holds: int = 0) -> None:
+        """For so many joints that are held, whichever; see :meth:`holding`."""
         self.arm = arm
         self.engine = solver(arm, task)
-        self.task, self.free = task, arm.n - task.m
+        self.task, self.free = task, arm.n - task.m - holds
+        self.held: Mapping[int, float] = {}
+
+    def holding(self, held: Mapping[int, float]) -> Tracer:
+        """The same, of other joints that are held: as many as it was made for."""
+        other = copy(self)
+        other.held = held
+        other.__dict__["_step"] = self._step  # one kernel for all
+        return other
+
+    @property
+    def _inputs(self) -> list[Array]:
+        """Beside configurations and poses: which joints are held, one in each row."""
+        return [np.eye(self.arm.n)[list(self.held)]] if self.held else []
 
     @cached_property
     @recalled
@@ -81,26 +103,35 @@ class Tracer:
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         e, j = scaled_error(arm, task, q, p, r)
+        holds = arm.n - task.m - self.free
+        held = [ca.SX.sym("held", holds, arm.n)] if holds else []
+        e, j = ca.vertcat(e, ca.SX.zeros(holds, 1)), ca.vertcat(j, *held)
+        moves = 1 - ca.sum1(held[0]) if held else ca.SX.ones(1, arm.n)
         basis = householder(j).null_rows()
-        null = [basis[k][c] for c in range(self.free) for k in range(arm.n)]
-        back = damped_least_norm(j, e, 1e-14)
+        null = [basis[k][c] * moves[k] for c in range(self.free) for k in range(arm.n)]  # not even by rounding
+        back = damped_least_norm(j, e, 1e-14) * moves.T
         # The basis is that of q, the residual too: a point that needs no correction brings its own.
-        return Kernel("self-motion", [q, p, r], [ca.vertcat(q + back, ca.norm_2(e), *null)])
+        return Kernel("self-motion", [q, p, r, *held], [ca.vertcat(q + back, ca.norm_2(e), *null)])
 
     def seeds(self, poses: Array, rows: NDArray[np.intp], seed: int, starts: int) -> tuple[NDArray[np.intp], Array]:
         """Configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         draws = self.engine.starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
+        draws[..., list(self.held)] = list(self.held.values())
         owner = np.repeat(rows, starts)
-        q, ok = self.engine.attempt(draws[rows].reshape(-1, self.arm.n), poses[owner], TOLERANCE)
+        q, ok = self._attempt(draws[rows].reshape(-1, self.arm.n), poses[owner])
         return owner[ok], q[ok]
+
+    def _attempt(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Inverse kinematics from starts q (N, n): where they led, and whether that is on the pose and within the limits."""
+        return self.engine.attempt(q, poses, TOLERANCE, held=list(self.held))
 
     def corrected(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_], Array]:
         """Configurations (N, n) brought back to their poses, whether that worked, and null vectors (N, free, n) there."""
         n = self.arm.n
         p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
         for left in reversed(range(_NEWTON)):
-            out = self._step.rows(q, p, r)
+            out = self._step.rows(q, p, r, *self._inputs)
             on = out[:, n] <= TOLERANCE
             if on.all() or not left:
                 break
@@ -112,7 +143,7 @@ class Tracer:
         has, in units of the arm's own, and the first null vector (N, n) at q.
         """
         n = self.arm.n
-        out = self._step.rows(q, p, r)
+        out = self._step.rows(q, p, r, *self._inputs)
         return out[:, :n] - q, out[:, n], out[:, n + 1 :].reshape(-1, self.free, n)[:, 0]
 
     # ---- curves ----------------------------------------------------------------------------------------------------
@@ -156,7 +187,7 @@ class Tracer:
             if not starts:
                 break
             owner = np.array([i for i, _ in starts])
-            q, ok = self.engine.attempt(np.array([x for _, x in starts]), poses[owner], TOLERANCE)
+            q, ok = self._attempt(np.array([x for _, x in starts]), poses[owner])
             known = [len(curves) for curves in found]
             self.curves(poses, owner[ok], q[ok], spacing, found)
             fresh = [(i, c) for i, curves in enumerate(found) for c in curves[known[i] :]]

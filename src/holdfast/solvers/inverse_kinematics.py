@@ -203,9 +203,17 @@ class InverseKinematics:
         """Random configurations (rows, n), uniform within the limits."""
         return generator.uniform(self._low, self._high, (rows, self.arm.n))
 
-    def attempt(self, q: Array, poses: Array, tolerance: float) -> tuple[Array, NDArray[np.bool_]]:
-        """One start q (N, n) for each pose: where it led, and whether that is on the pose and within the limits."""
-        run = self._loop.run(q, _parameters(poses), tolerance**2, STEPS)
+    def attempt(self, q: Array, poses: Array, tolerance: float, held: Sequence[int] = ()) -> tuple[Array, NDArray[np.bool_]]:
+        """One start q (N, n) for each pose: where it led, and whether that is on the pose and within the limits.
+
+        Joints that are ``held``, by index from 0, stay where they are.
+        """
+        parameters, loop = _parameters(poses), self._loop_with_locks if held else self._loop
+        if held:
+            free = np.ones((len(q), self.arm.n))
+            free[:, held] = 0.0
+            parameters = np.concatenate([parameters, free], axis=1)
+        run = loop.run(q, parameters, tolerance**2, STEPS)
         return run.state, self.verdict(run.state, poses, tolerance)
 
     @cached_property

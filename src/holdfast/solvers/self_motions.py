@@ -6,7 +6,7 @@ Source: Goel, Maciejewski, Balakrishnan 2005, section on self-motion manifolds: 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -176,7 +176,6 @@ def self_motion(
     return fibres(arm, target_pose(rows, target), rows, spacing=spacing, seed=seed, starts=starts, **options)[0]  # type: ignore[arg-type]
 
 
-@says("tracing self-motions")
 def fibres(
     arm: Arm,
     poses: ArrayLike,
@@ -224,25 +223,43 @@ def fibres(
     """
     targets = check_poses(poses)
     rows = as_task(arm, task)
-    redundancy = arm.n - rows.m
-    if redundancy < 1:
+    if arm.n <= rows.m:
         raise TaskError(
             f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows: without redundancy a pose has no "
             "self-motion; choose a task with fewer rows"
         )
+    if not np.isfinite(margin):
+        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
+    kept = chosen_clearance(arm, clearance, cell, looks=False)
+    engine = tracer(arm, rows)
+    options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": follow, "clearance": kept, "margin": margin}
+    return traced(engine, rows, targets, **options)  # type: ignore[arg-type]
+
+
+@says("tracing self-motions")
+def traced(
+    engine: Tracer,
+    task: Task,
+    targets: Array,
+    *,
+    spacing: float,
+    seed: int,
+    starts: int,
+    follow: bool,
+    clearance: Clearance | None,
+    margin: float,
+) -> list[SelfMotion]:
+    """As :func:`fibres`, of what has been read; joints that the tracer holds stay where it does."""
     if not (np.isfinite(spacing) and 0 < spacing <= 0.5):
         raise InputError(f"spacing is {spacing:g}; it must be above 0 and at most 0.5 rad")
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
-    if not np.isfinite(margin):
-        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    kept = chosen_clearance(arm, clearance, cell, looks=False)
-    clear = None if kept is None or not kept.pair_names else Clear.of(kept, margin)
+    arm = engine.arm
+    clear = None if clearance is None or not clearance.pair_names else Clear.of(clearance, margin)
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
-    engine = tracer(arm, rows)
     owner, q = engine.seeds(targets, np.flatnonzero(finite), seed, starts)
     components: list[list[Component]] = [[] for _ in targets]
-    if redundancy == 1:
+    if engine.free == 1:
         engine.curves(targets, owner, q, spacing, components)
         if follow:
             engine.passed_on(targets, spacing, components)
@@ -261,16 +278,18 @@ def fibres(
         Status.OK if len(p) else Status.INFEASIBLE if was else Status.NOT_FOUND for p, was in zip(points, there, strict=True)
     ]
     status = [s if ok else Status.BAD_INPUT for s, ok in zip(found_any, finite, strict=True)]
-    common = {"arm": arm, "task": rows, "redundancy": redundancy, "spacing": spacing, "clearance": kept, "margin": margin}
+    common = {"arm": arm, "task": task, "redundancy": engine.free, "spacing": spacing}
+    common |= {"clearance": clearance, "margin": margin}
     return [
         SelfMotion(pose=t, components=tuple(c), q=p, status=s, **common)  # type: ignore[arg-type]
         for t, c, p, s in zip(targets, components, points, status, strict=True)
     ]
 
 
-def tracer(arm: Arm, task: Task) -> Tracer:
-    """The predictor and corrector of an arm and task, compiled once."""
-    return _tracer(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
+def tracer(arm: Arm, task: Task, held: Mapping[int, float] | None = None) -> Tracer:
+    """The predictor and corrector of an arm and task, compiled once; with joints held at values, once for as many."""
+    engine = _tracer(arm, tuple(map(tuple, task.rows.tolist())), task.frame, len(held or {}))
+    return engine.holding(held) if held else engine
 
 
 def _joined(spans: list[tuple[float, float]], circle: bool) -> list[tuple[float, float]]:
@@ -298,5 +317,5 @@ def _joined(spans: list[tuple[float, float]], circle: bool) -> list[tuple[float,
 
 
 @lru_cache(maxsize=16)
-def _tracer(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> Tracer:
-    return Tracer(arm, Task("task", np.array(rows), frame))
+def _tracer(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"], holds: int) -> Tracer:
+    return Tracer(arm, Task("task", np.array(rows), frame), holds)

@@ -24,11 +24,16 @@ from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    DurationOption,
     HoldOption,
     JsonOption,
+    MotionCsvOption,
     OutOption,
+    PathArgument,
+    PathTaskOption,
     PlotOption,
     SeedOption,
+    StartDegreesOption,
     TipOption,
     check_unit_of_places,
     read_arm,
@@ -36,13 +41,12 @@ from holdfast.cli.options import (
     read_objective,
     read_task,
 )
-from holdfast.grammar import TASKS
 from holdfast.present.results import drawn, printed
 
 
 def command(
     arm: ArmArgument,
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)],
+    path: PathArgument,
     rates: Annotated[
         Path | None,
         typer.Option("--rates", help="File with how often each joint locks (YAML). Default: all alike.", show_default=False),
@@ -50,21 +54,14 @@ def command(
     mode: Annotated[
         str, typer.Option("--mode", help="on-path, or detour: after a lock the tool may leave its path and come back.")
     ] = "on-path",
-    task: Annotated[
-        str | None,
-        typer.Option(
-            "--task", help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: as for follow.", show_default=False
-        ),
-    ] = None,
+    task: PathTaskOption = None,
     start: Annotated[
         str | None, typer.Option("--start", help="Where the motion begins, rad and m. Default: anywhere.", show_default=False)
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
+    degrees: StartDegreesOption = False,
     samples: Annotated[int, typer.Option("--samples", help="Poses, evenly spaced in time.")] = 101,
     spacing: Annotated[float, typer.Option("--spacing", help="Of the configurations of a pose, rad.")] = 0.05,
-    duration: Annotated[
-        float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
-    ] = None,
+    duration: DurationOption = None,
     compare: Annotated[
         list[str] | None,
         typer.Option(
@@ -84,7 +81,7 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    csv: MotionCsvOption = None,
     plot: PlotOption = None,
     out: OutOption = None,
     json_: JsonOption = False,

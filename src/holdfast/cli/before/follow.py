@@ -23,10 +23,15 @@ from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    DegreesOption,
+    DurationOption,
     GravityOption,
     HoldOption,
     JsonOption,
+    MotionCsvOption,
     MountOption,
+    PathArgument,
+    PathTaskOption,
     PayloadOption,
     TipOption,
     check_unit_of_places,
@@ -37,13 +42,12 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
-from holdfast.grammar import TASKS
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)],
+    path: PathArgument,
     minimise: Annotated[
         str | None,
         typer.Option(
@@ -62,19 +66,11 @@ def command(
             help="gradient-projection, extended-jacobian, augmented-jacobian or none (least-norm rates, to compare).",
         ),
     ] = "gradient-projection",
-    task: Annotated[
-        str | None,
-        typer.Option(
-            "--task",
-            help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of "
-            "positions (planar if the arm moves in a plane), else pose.",
-            show_default=False,
-        ),
-    ] = None,
+    task: PathTaskOption = None,
     q: Annotated[
         str | None, typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False)
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
+    degrees: DegreesOption = False,
     gain: Annotated[
         float | None, typer.Option("--gain", help="Feedback gain. Default: high enough to hardly lag.", show_default=False)
     ] = None,
@@ -87,9 +83,7 @@ def command(
         typer.Option("--rate-cap", help="Largest norm of the joint rates, rad/s; slows self-motion only.", show_default=False),
     ] = None,
     samples: Annotated[int, typer.Option("--samples", help="Samples over the duration.")] = 501,
-    duration: Annotated[
-        float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
-    ] = None,
+    duration: DurationOption = None,
     best: Annotated[
         bool, typer.Option("--best", help="Also the best of each pose (one or two degrees of redundancy).")
     ] = False,
@@ -118,7 +112,7 @@ def command(
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for trajectory.csv and report.html.", show_default=False)
     ] = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    csv: MotionCsvOption = None,
     parquet: Annotated[
         Path | None, typer.Option("--parquet", help="The same as Parquet (needs holdfast[parquet]).", show_default=False)
     ] = None,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -12,8 +11,10 @@ from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, T
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    DegreesOption,
     HoldOption,
     JsonOption,
+    MotionCsvOption,
     OutOption,
     PlotOption,
     TipOption,
@@ -52,11 +53,11 @@ def command(
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
     meshes: MeshesOption = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
+    degrees: DegreesOption = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    csv: MotionCsvOption = None,
     plot: PlotOption = None,
     out: OutOption = None,
     json_: JsonOption = False,

@@ -12,6 +12,7 @@ from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
     BaseOption,
+    DegreesOption,
     HoldOption,
     TaskOption,
     TipOption,
@@ -43,7 +44,7 @@ def command(
         str | None,
         typer.Option("--q", help="Joint values, rad and m. Default: near home, in no special place.", show_default=False),
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
+    degrees: DegreesOption = False,
     task: TaskOption = None,
     lock: Annotated[
         list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.", show_default=False)

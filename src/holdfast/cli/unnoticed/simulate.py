@@ -16,6 +16,8 @@ from holdfast.cli.options import (
     FailureOption,
     HoldOption,
     JsonOption,
+    MotionCsvOption,
+    StartDegreesOption,
     TaskOption,
     TipOption,
     read_configuration,
@@ -67,11 +69,11 @@ def command(
     stop_at_contact: Annotated[
         bool, typer.Option("--stop-at-contact", help="With --cell: the run ends where the arm first touches an object.")
     ] = False,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
+    degrees: StartDegreesOption = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    csv: MotionCsvOption = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     out: Annotated[
         Path | None,

@@ -24,7 +24,7 @@ def to_dict(e: Endurance) -> dict[str, Any]:
         **e.arm.entry(),
         "task": e.task.name,
         "mode": e.mode,
-        "exact": e.exact,
+        "kind": e.kind,
         "rates": dict(zip(names, e.rates.each, strict=True)),
         "rates_per_second": e.rates.per_second,
         "survival": e.survival,
