@@ -57,6 +57,7 @@ def calls(three):
     return {
         "recover": lambda x: hf.recover(arm, x, q, goal=pose, task="planar", samples=0).q,
         "check_waypoints": lambda x: hf.recovery.check_waypoints(arm, [q, q], x).looked_at,
+        "execute": lambda x: hf.execute(arm, [q, q + np.array([0.1, 0, 0.1])], [0, 1], locked=x, settle=0.0).q,
         "reachable_when_locked": lambda x: hf.reachable_when_locked(arm, [1.5, 1.5], x, task="planar").q,
         "simulate": lambda x: hf.simulate(law, q, [1.5, 1.5], locked=x).q_final,
         "basins": lambda x: hf.basins(law, [1.5, 1.5], x, starts=5).end,
@@ -79,7 +80,7 @@ def test_what_only_counts_locks_refuses_ranges_and_speeds_in_a_sentence(three):
     arm = three[0]
     bad = Degraded(arm, locked={"joint2": 0.6}, ranges={"joint1": (-1, 1)})
     for name, call in calls(three).items():
-        if name in ("recover", "check_waypoints", "reachable_when_locked"):
+        if name in ("recover", "check_waypoints", "execute", "reachable_when_locked"):
             call(bad)
         else:
             with pytest.raises(InputError, match="only locked joints count here, and what is degraded has a range of 'joint1'"):

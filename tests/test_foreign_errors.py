@@ -122,6 +122,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {**at_planar, "start": q, "goal": target, "rates": None, "velocity": 1.0, "spacing": 0.3, "seed": 0, "starts": 4}
             | {"per_second": False},
         ),
+        "execute": (
+            hf.execute,
+            {"arm": arm, "q": [q, q + 0.1], "time": [0.0, 0.1], "locked": ["joint2"], "lock_time": 0.05, "notice": 0.01}
+            | {"stop": 0.01, "goal": pose, "keep": None, "settle": 0.0, "clearance": None, "cell": None},
+        ),
         "follow": (
             hf.follow,
             {"arm": arm, "path": g["timed"], "maximise": index, "method": "gradient-projection", "q": q, "gain": 0.1}

@@ -62,9 +62,11 @@ from holdfast.kernels import set_threads as set_threads
 from holdfast.motion import Trajectory as Trajectory
 from holdfast.motion import follow as follow
 from holdfast.physics import BrakedDrop as BrakedDrop
+from holdfast.physics import Execution as Execution
 from holdfast.physics import FreeSwing as FreeSwing
 from holdfast.physics import PhysicalRun as PhysicalRun
 from holdfast.physics import Servos as Servos
+from holdfast.physics import execute as execute
 from holdfast.physics import free_swing as free_swing
 from holdfast.physics import simulate_physics as simulate_physics
 from holdfast.reach import TolerantWorkspace as TolerantWorkspace

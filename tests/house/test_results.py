@@ -30,8 +30,9 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance FreeSwing "
-        "LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
+        "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance Execution "
+        "FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
+        "Workspace",
         "bench": "FailActive",
         "certificates": "CertificateCheck Proof",
         "control": "ExportedLaw TradeOff",

@@ -107,6 +107,7 @@ ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",
     "Designs",
+    "Execution",
     "FailActive",
     "FreeSwing",
     "Merged",

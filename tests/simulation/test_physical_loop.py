@@ -14,7 +14,8 @@ import holdfast as hf
 import oracles
 from cards import check_card
 from holdfast.errors import ArmError, InputError
-from holdfast.physics.loop import _Plant, _verdict
+from holdfast.physics.loop import _verdict
+from holdfast.physics.plant import Plant
 from holdfast.physics.servos import leads
 
 RAD = np.deg2rad
@@ -153,7 +154,7 @@ def test_two_links_move_as_the_textbook_says():
 
 def test_a_joint_that_locks_while_moving_passes_on_no_momentum_that_is_not_there(panda, home, rng):
     rates, healthy = rng.normal(size=7), np.arange(7) != 3
-    after = _Plant(panda, home, rates, np.ones(7, dtype=bool), hf.Servos()).locked(healthy)
+    after = Plant(panda, home, rates, np.ones(7, dtype=bool), hf.Servos()).locked(healthy)
     m = dynamics.mass_matrix(panda, home)
     np.testing.assert_allclose(after.data.qvel, np.linalg.solve(m[np.ix_(healthy, healthy)], (m @ rates)[healthy]), rtol=1e-6)
     left = np.zeros(7)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.clearance.contacts import Contact
-from holdfast.physics.servos import Servos
+from holdfast.physics.servos import Servos, lag, time_at_effort
 from holdfast.result import Result
 from holdfast.simulation.runs import Path, Runs
 
@@ -23,7 +23,6 @@ Why = Literal["none", "singular", "slow", "unstable", "contact"]
 
 SAMPLES = 4000  # of the kinematic path, at equal times
 PIECES = 800  # of each path where their distance is measured, of equal length
-FULL = 0.999  # of the effort: a motor at its limit
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -92,15 +91,12 @@ class PhysicalRun(Result):
     @property
     def tracking_error(self) -> Array:
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
-        return np.asarray(np.where(self.locked, 0.0, np.abs(self.q - self.reference)).max(axis=0, initial=0.0))
+        return lag(self.q, self.reference, self.locked)
 
     @property
     def saturated(self) -> Array:
         """(n,) share of the time for which the motor of each joint was at its effort while the joint was healthy."""
-        effort = np.array([joint.effort for joint in self.law.arm.joints])
-        healthy = ~self.locked
-        full = healthy & (np.abs(self.torque) >= FULL * effort)
-        return np.asarray(full.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
+        return time_at_effort(self.law.arm, self.torque, self.locked)
 
     @cached_property
     def locked(self) -> NDArray[np.bool_]:

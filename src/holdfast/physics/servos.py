@@ -15,8 +15,10 @@ from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 CONFIGURATIONS = 64  # at which the inertia that a servo is tuned to is looked for
+FULL = 0.999  # of the effort: a motor at its limit
 LEAD = 1.0  # rad or m: how far a reference may run ahead of a joint without torque limit
 
 
@@ -101,6 +103,19 @@ def leads(arm: Arm, stiffness: Array) -> Array:
     """(n,) how far a reference may be from its joint: what asks for the whole effort."""
     effort = np.array([joint.effort for joint in arm.joints])
     return np.where(np.isfinite(effort), effort / stiffness, LEAD)
+
+
+def lag(q: Array, reference: Array, locked: Flags) -> Array:
+    """(n,) largest distance of each joint (T, n) from its reference while it was not locked (T, n), rad or m."""
+    return np.asarray(np.where(locked, 0.0, np.abs(q - reference)).max(axis=0, initial=0.0))
+
+
+def time_at_effort(arm: Arm, torque: Array, locked: Flags) -> Array:
+    """(n,) share of the time (T, n) for which the motor of each joint was at its effort while it was not locked."""
+    effort = np.array([joint.effort for joint in arm.joints])
+    healthy = ~locked
+    full = healthy & (np.abs(torque) >= FULL * effort)
+    return np.asarray(full.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
 
 
 def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> Array:

@@ -24,6 +24,7 @@ PRESENTERS = {
     "Designs": ("designs.console", "designs.page"),
     "FailActive": ("bench.console", "bench.page"),
     "Endurance": ("endurance.console", "endurance.page"),
+    "Execution": ("physics.execution", "physics.execution"),
     "FreeSwing": ("physics.swing", "physics.swing"),
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
