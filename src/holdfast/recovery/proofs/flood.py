@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +20,12 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
 from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE
-from holdfast.clearance.exact.bodies import solids_within
-from holdfast.clearance.exact.meetings import Part
 from holdfast.recovery.rows import Rows
 from holdfast.recovery.space import Space
 from holdfast.solvers import joint_space
+
+if TYPE_CHECKING:
+    from holdfast.clearance.exact.meetings import Part
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -183,6 +185,8 @@ class _Blocked:
     """Which cells are certainly blocked."""
 
     def __init__(self, space: Space) -> None:
+        from holdfast.clearance.exact.bodies import solids_within  # imports scipy
+
         self._space = space
         seen = None if space.clearance is None else space.clearance.obstacles
         parts: Sequence[Part] = [] if seen is None or space.clearance is None else space.clearance.exactness.parts
