@@ -39,7 +39,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent|fractions)\..*"),
     (
         r"py:.*",
-        r"(Array|ArrayLike|CellLike|KeepLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
+        r"(AccelerationsLike|Array|ArrayLike|CellLike|KeepLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
     ),
     (r"py:.*", r"Locked(At|Anywhere)?"),
     (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),

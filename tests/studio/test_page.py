@@ -280,6 +280,7 @@ def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
 
 def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
+    page.wait_for_selector("[data-worst]")  # see above
     started, given_up = threading.Event(), threading.Event()
 
     def endless(check):

@@ -107,7 +107,7 @@ def recover(
         tries: Searches for a route where straight lines are blocked; when a quarter of them found none, no more are made.
         time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
             seed need not give the same result.
-        accelerations: Limits, rad/s^2 and m/s^2, within which the motion found is timed as :attr:`Recovery.timed`: a number, n
+        accelerations: Limits, rad/s^2 and m/s^2, within which the motion found is timed as ``timed`` of the result: a number, n
             numbers, or one by joint. Its corners are rounded where that is proved to keep limits, rows and clearance; along a
             tool path by at most half a millimetre and a quarter of a degree; elsewhere the arm stops there.
         period: s between the rows of the timed motion.
