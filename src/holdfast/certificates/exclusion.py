@@ -8,6 +8,7 @@ axes (a shoulder) the lemma is the whole proof. The tool itself is the last such
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -79,8 +80,10 @@ def ranges(claim: OutOfReachClaim) -> Array:
     return kept
 
 
-def exclude(claim: OutOfReachClaim, halvings: int, until: float, seed: int) -> Exclusion:
-    """Search for a witness, then for a proof, until a time (``monotonic``)."""
+def exclude(
+    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
+) -> Exclusion:
+    """Search for a witness, then for a proof, until a time (``monotonic``) or ``stop``; ``tell`` hears what part is closed."""
     rng = np.random.default_rng(seed)
     found = _witness(claim, rng)
     if found is not None:
@@ -98,7 +101,7 @@ def exclude(claim: OutOfReachClaim, halvings: int, until: float, seed: int) -> E
             if root[0] != OPEN:  # nothing more is needed
                 break
     main = Halving(box, halvings)
-    finished = main.run(_Apart(chain, lemmas, m), until)
+    finished = main.run(_Apart(chain, lemmas, m), until, stop, tell)
     tree = main.in_order()
     used = [k for k in range(len(lemmas)) if LEMMA + k in tree]
     renamed = {LEMMA + k: LEMMA + new for new, k in enumerate(used)}
@@ -196,7 +199,7 @@ def _lemma(
     while margin < total:
         low, high = asked
         tree = Halving(joints[link:], _LEMMA_HALVINGS)
-        finished = tree.run(partial(_kept, segment, point, still, low, high if high < total else np.inf), until, _LEMMA_NODES)
+        finished = tree.run(partial(_kept, segment, point, still, low, high if high < total else np.inf), until, most=_LEMMA_NODES)
         tested += tree.tested
         if finished and not tree.undecided:
             useful = low > 0 or high < total

@@ -33,16 +33,23 @@ class Halving:
         self.nodes = 1
         self.tested = 0
 
-    def run(self, test: Test, until: float = np.inf, most: int = 1 << 24) -> bool:
-        """Halve until all is decided, a time (``monotonic``) has come or so many nodes are made; False if one of these came first.
+    def run(
+        self,
+        test: Test,
+        until: float = np.inf,
+        stop: Callable[[], bool] = lambda: False,
+        tell: Callable[[float], None] = lambda closed: None,
+        most: int = 1 << 24,
+    ) -> bool:
+        """Halve until all is decided, a time (``monotonic``) or ``stop`` comes, or so many nodes are made: then False.
 
         The test takes middles and half widths (N, A) and gives a token or OPEN for each (N,), and what would be gained by halving
-        each axis (N, A).
+        each axis (N, A). ``tell`` is told what part of the box is closed.
         """
-        axes = len(self.box)
+        axes, closed = len(self.box), 0.0
         waiting = [(np.zeros(1, dtype=np.int64), self.box.mean(axis=1)[None], np.zeros((1, axes), dtype=np.int64))]
         while waiting:
-            if monotonic() > until or self.nodes > most:
+            if monotonic() > until or stop() or self.nodes > most:
                 return False
             name, middle, depth = waiting.pop()
             if len(name) > _AT_ONCE:
@@ -55,6 +62,8 @@ class Halving:
             self._token[name[done]] = found[done]
             gain = np.where((depth < self.halvings) & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
             split = ~done & (gain.max(axis=1) > 0)
+            closed += float((0.5 ** depth[~split].sum(axis=1)).sum())
+            tell(closed)
             if split.any():
                 waiting.append(self._split(name[split], middle[split], depth[split], half[split], gain[split].argmax(axis=1)))
         return True
