@@ -131,7 +131,7 @@ def tolerant_claim(
     Raises:
         InputError: A box, joint or range that makes no claim, a joint that may lock anywhere on a full circle without a
             working range, or an arm with slides.
-        TaskError: Failures that are none, or of several joints at once.
+        TaskError: No failure, or one of several joints at once.
 
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
     """
