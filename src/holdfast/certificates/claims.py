@@ -219,6 +219,4 @@ def out_of_reach_claim(
         turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
         if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):
             raise InputError("two coordinates are for arms that move in the xy plane; give the box of this one with three")
-    return OutOfReachClaim(
-        arm=arm, task=same.task, box=same.box, locked=same.locked, angle=same.angle, limits=same.limits
-    )
+    return OutOfReachClaim(arm=arm, task=same.task, box=same.box, locked=same.locked, angle=same.angle, limits=same.limits)

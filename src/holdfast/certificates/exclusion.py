@@ -159,7 +159,7 @@ class _Apart:
 def _points(chain: Chain, joints: Array, rng: np.random.Generator) -> list[tuple[int, Array]]:
     """Links and points of theirs, each the point of the next axis that is nearest to the one behind it: (link, (3,))."""
     n, made = len(chain.lengths), list[tuple[int, Array]]()
-    q, before = rng.uniform(*joints.T, (8, n)), np.full((8, 3), np.inf)
+    q, before = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
     for k in range(n):
         if k + 1 < n:
             turn, there = chain.rotations[k + 1][:, 2], chain.origins[k + 1]
@@ -199,7 +199,9 @@ def _lemma(
     while margin < total:
         low, high = asked
         tree = Halving(joints[link:], _LEMMA_HALVINGS)
-        finished = tree.run(partial(_kept, segment, point, still, low, high if high < total else np.inf), until, most=_LEMMA_NODES)
+        finished = tree.run(
+            partial(_kept, segment, point, still, low, high if high < total else np.inf), until, most=_LEMMA_NODES
+        )
         tested += tree.tested
         if finished and not tree.undecided:
             useful = low > 0 or high < total
@@ -212,7 +214,7 @@ def _lemma(
 def _kept(
     segment: Segment, point: Array, still: NDArray[np.bool_], low: float, high: float, middle: Array, half: Array
 ) -> tuple[Index, Array]:
-    """The test of boxes of joints: whether the end keeps from ``low`` to ``high`` from a point, some joints counting nothing."""
+    """The test of boxes of joints: whether the end keeps from ``low`` to ``high`` from a point; some joints do not count."""
     half = np.where(still, 0.0, half)
     at, none = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
     found, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
@@ -248,7 +250,7 @@ def _witness(claim: OutOfReachClaim, rng: np.random.Generator) -> Array | None:
     m, joints = ROWS[claim.task], ranges(claim)
     reach = Reach(claim.arm, m, claim.locked, joints)
     targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, m))
-    q = reach.solved(rng.uniform(*joints.T, (len(targets), claim.arm.n)), targets, 40)
+    q = reach.solved(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
     at = claim.arm.forward_kinematics(q)[:, :m, 3]
     inside = ((at > claim.box[:, 0] + 1e-9) & (at < claim.box[:, 1] - 1e-9)).all(axis=1)
     inside &= ((q >= joints[:, 0]) & (q <= joints[:, 1])).all(axis=1)

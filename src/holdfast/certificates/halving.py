@@ -43,8 +43,8 @@ class Halving:
     ) -> bool:
         """Halve until all is decided, a time (``monotonic``) or ``stop`` comes, or so many nodes are made: then False.
 
-        The test takes middles and half widths (N, A) and gives a token or OPEN for each (N,), and what would be gained by halving
-        each axis (N, A). ``tell`` is told what part of the box is closed.
+        The test takes middles and half widths (N, A) and gives a token or OPEN for each (N,), and what halving each axis would
+        gain (N, A). ``tell`` is told what part of the box is closed.
         """
         axes, closed = len(self.box), 0.0
         waiting = [(np.zeros(1, dtype=np.int64), self.box.mean(axis=1)[None], np.zeros((1, axes), dtype=np.int64))]
@@ -78,7 +78,7 @@ class Halving:
         below = self.nodes + 2 * np.arange(count)
         self._token[name], self._below[name] = SPLIT + axis, below
         self.nodes += 2 * count
-        names, rows = (below[:, None] + [0, 1]).ravel(), np.arange(2 * count)
+        names, rows = np.repeat(below, 2) + np.arange(2 * count) % 2, np.arange(2 * count)
         self._depth[names] = np.repeat(self._depth[name], 2) + 1
         middles, depths, axes = np.repeat(middle, 2, axis=0), np.repeat(depth, 2, axis=0), np.repeat(axis, 2)
         depths[rows, axes] += 1

@@ -172,7 +172,7 @@ class TolerantProof(Result):
 
 
 def early(finished: bool) -> str:
-    """What is said of a search that did not come to its end."""
+    """What is said of a search that ended early."""
     return "" if finished else "; the search was stopped before the smallest cells were reached"
 
 

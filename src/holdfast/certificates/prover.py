@@ -114,8 +114,8 @@ def certify(
 
     Returns:
         A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
-        what is out of reach a :class:`holdfast.certificates.Refutation`; found by the prover and not yet verified. Its file is checked by :func:`check_certificate`, or without holdfast; see the
-        explanation of certificates.
+        what is out of reach a :class:`holdfast.certificates.Refutation`; found by the prover and not yet verified. Its file is
+        checked by :func:`check_certificate`, or without holdfast; see the explanation of certificates.
 
     Raises:
         InputError: A number out of range, or a box that would take more than 2^24 cells.

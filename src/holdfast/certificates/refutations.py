@@ -24,7 +24,7 @@ _FINE = 10_000
 
 @dataclass(frozen=True, kw_only=True)
 class Refutation(Result):
-    """What the prover found for a claim that nothing of a box is reached. It is not verified: :func:`check_certificate` does that.
+    """What the prover found for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.

@@ -1,7 +1,7 @@
 """How near and how far a point of a link may be from a target over boxes of joints and targets: in doubles, for batches.
 
-Along any direction e the distance is at least e.(y - x), whose first and second derivatives at the centre of a box are exact and
-whose third is bounded by the lengths that joints carry. The greatest distance is bounded through half its square.
+Along any direction e the distance is at least e.(y - x), whose first and second derivatives at the centre of a box are exact
+and whose third is bounded by the lengths that joints carry. The greatest distance is bounded through half its square.
 Everything here may be wrong: the verifier decides.
 """
 
@@ -67,12 +67,11 @@ class Segment:
 
     def on_axes(self, point: Array) -> int:
         """How many of the first joints have their axes through a point (3,): they do not change its distance."""
-        tip, axes, _ = self.frames(np.zeros((1, len(self.lengths))))
         turn, place = np.eye(3), np.zeros(3)
         for k in range(len(self.lengths)):
             place = place + turn @ self.origins[k]
             turn = turn @ self.rotations[k]
-            if np.linalg.norm(np.cross(axes[0, k], point - place)) > _ON_AXIS:
+            if np.linalg.norm(np.cross(turn[:, 2], point - place)) > _ON_AXIS:
                 return k
         return len(self.lengths)
 

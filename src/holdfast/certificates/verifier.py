@@ -6,8 +6,8 @@ the leaf and a box of half widths S. Where e(S) <= S, the map s -> s - g sends t
 some s has g = 0: a configuration that reaches the target. Any matrix D may span the section; it decides whether e(S) <= S.
 
 A refutation is a tree over joints and targets. In each leaf a point of some link is farther from the target than the tool
-can be from this point, or nearer: how far that is, is a lemma, with a tree of its own over the joints behind the link. Distances are
-bounded by exact derivatives at the centre, in arrays of balls, and a bound for the third.
+can be from this point, or nearer. How far that is, is a lemma, with a tree of its own over the joints behind the link.
+Distances are bounded by exact derivatives at the centre, in arrays of balls, and a bound for the third.
 """
 
 from __future__ import annotations
@@ -169,7 +169,8 @@ def _check(document: dict[str, Any]) -> None:
     if document["kind"] == "reach":
         form |= {"centres": TEXT, "unit": re.escape(UNIT.hex()), "refutations": [..., 0]}
     if document["kind"] == "refutation":
-        need(rows <= 3 and all(joint["type"] == "revolute" for joint in joints), "refutations are of positions and joints that turn")
+        good = rows != 6 and all(joint["type"] == "revolute" for joint in joints)
+        need(good, "refutations are of positions, and of joints that turn")
         lemma = {"link": range(n), "point": [NUMBER, 3], "least": NUMBER, "most": NUMBER, "tree": TEXT}
         form |= {"lemmas": [lemma, ...], "witness": [NUMBER, n] if document.get("witness") else None}
     _fit(document, form, "the certificate")
@@ -477,7 +478,9 @@ class Apart:
         self.turns = [Balls(turn.at.reshape(3, 3), turn.off.reshape(3, 3)) for turn in self.turns]
         self.points = [np.array([real(x) for x in lemma["point"]]) for lemma in document["lemmas"]]
         if self.rows == 2:  # all that moves, moves in the plane: heights count nothing
-            flat = all(abs(turn.at[2, 2]) == 1 and not turn.at[2, :2].any() and not turn.at[:2, 2].any() for turn in self.turns[:-1])
+            flat = all(
+                abs(turn.at[2, 2]) == 1 and not turn.at[2, :2].any() and not turn.at[:2, 2].any() for turn in self.turns[:-1]
+            )
             need(flat, "a planar target cannot be refuted for an arm that leaves the plane")
             self.origins, self.points = ([x * [1, 1, 0] for x in some] for some in (self.origins, self.points))
         self.links = [lemma["link"] for lemma in document["lemmas"]]
@@ -514,7 +517,10 @@ class Apart:
             about[:, 0, 0] = about[:, 1, 1] = joint[:, 4]
             about[:, 1, 0], about[:, 0, 1], about[:, 2, 2] = joint[:, 3], -joint[:, 3], 1
             turn = times("nij,njk->nik", turn, Balls(about, 2.0**-52))
-            link, after = end if k + 1 == last else self.origins[k + 1], end if k + 2 == last else self.origins[min(k + 2, self.n)]
+            link, after = (
+                end if k + 1 == last else self.origins[k + 1],
+                end if k + 2 == last else self.origins[min(k + 2, self.n)],
+            )
             whole = Balls(link * [1, 1, 0])
             if k + 1 < last:
                 whole += times("ij,j->i", self.turns[k + 1], Balls(after * [0, 0, 1]))
@@ -541,7 +547,7 @@ class Apart:
         return best
 
     def farthest(self, v: Balls, z: Balls, columns: Balls, lengths: Array, half: Array, wide: Array) -> Array:
-        """Above the distance, from half its square, whose third derivative is at most 3 |t'| |t''| + |t| times that of the point."""
+        """Above the distance, from half its square: its third derivative is at most 3 |t'| |t''| + |t| times the point's."""
         count, joints = half.shape
         back = Balls(np.broadcast_to(-np.eye(3), (count, 3, 3)))
         whole = Balls(np.concatenate([columns.at, back.at], axis=1), np.concatenate([columns.off, back.off], axis=1))
@@ -552,9 +558,10 @@ class Apart:
         second.at[:, :joints, :joints], second.off[:, :joints, :joints] = inner.at, inner.off
         width, d = np.concatenate([half, wide], axis=1), np.sqrt((v.size**2).sum(axis=1)) * UP
         c = np.cumsum(half, axis=1)
-        one, two, three = (c * lengths).sum(axis=1) + wide.sum(axis=1), (c**2 * lengths).sum(axis=1), (c**3 * lengths).sum(axis=1)
+        one, two, three = ((c**power * lengths).sum(axis=1) for power in (1, 2, 3))
+        one += np.sqrt((wide**2).sum(axis=1)) * UP
         total = bent(times("na,nka->nk", v, whole).size, -second, width) + (3 * one * two + (d + one) * three) / 6
-        return np.nextafter(np.sqrt((d**2 + 2 * total) * UP), np.inf)
+        return np.asarray(np.nextafter(np.sqrt((d**2 + 2 * total) * UP), np.inf))
 
     def excluded(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
         """Of leaves of the tree: by a lemma, or by none (-1), in which case the distance of the tool itself must be above 0."""
@@ -576,7 +583,7 @@ class Apart:
         first, point = self.links[which], self.points[which]
         joints = [self.middles(first + k, (cell[k] for cell in parts)) for k in range(self.n - first)]
         tip, z, columns, lengths = self.moved(first, self.origins[-1], joints)
-        half, place, turn = np.stack([joint[:, 2] for joint in joints], 1), np.zeros(3), None
+        half = np.stack([joint[:, 2] for joint in joints], 1)
         # Where the first axes pass by the point at a distance, turning about these changes the tool's by so much at most.
         aside, still = np.zeros(len(parts)), np.ones(len(parts), dtype=bool)
         for k in range(len(joints)):
@@ -588,10 +595,8 @@ class Apart:
             if not still.any():
                 break
         given = tip + Balls(np.broadcast_to(-point, (len(parts), 3))), z, columns, lengths, half, np.zeros((len(parts), 3))
-        return np.asarray(
-            (np.nextafter(self.nearest(*given) - aside, -np.inf) >= self.least[which])
-            | (self.least[which] <= 0)
-        ) & np.asarray(np.nextafter(self.farthest(*given) + aside, np.inf) <= self.most[which])
+        near, far = np.nextafter(self.nearest(*given) - aside, -np.inf), np.nextafter(self.farthest(*given) + aside, np.inf)
+        return np.asarray(((near >= self.least[which]) | (self.least[which] <= 0)) & (far <= self.most[which]))
 
     def holds(self, witness: list[str]) -> bool:
         """Whether a configuration is one of those that are meant, and its tool in the box of targets."""
@@ -602,7 +607,8 @@ class Apart:
         tip = self.moved(0, self.origins[-1], [np.array([[x, 0, 0, *angle]]) for x, angle in zip(q, angles, strict=True)])[0]
         sides = [[real(x) for x in pair] for pair in given["target"]["box"]]
         low, high = tip.low[0], -(-tip).low[0]
-        return within and max(map(abs, q)) < 100 and all(a <= x and y <= b for (a, b), x, y in zip(sides, low, high, strict=False))
+        inside = all(a <= x and y <= b for (a, b), x, y in zip(sides, low, high, strict=False))
+        return within and max(map(abs, q)) < 100 and inside
 
     def rejected(self, chunk: list[tuple[Cell, tuple[int, int]]]) -> tuple[int, list[tuple[Cell, tuple[int, int]]]]:
         """How many leaves were checked, and which of them prove nothing; each with its tree, -1 the main one, and its lemma."""
@@ -642,11 +648,12 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """What was found, for people: never rounded up to the whole or down to nothing."""
+        text = "Rejected: the witness is none."
         if self.document.get("witness"):
             at = ", ".join(repr(real(x)) for x in self.document["witness"])
-            return f"Refuted: at ({at}) the tool is in the box." if self.refuted else "Neither proved nor refuted: the witness is none."
+            return f"Refuted: at ({at}) the tool is in the box." if self.refuted else text
         text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
-        text += " of all pairs of target and configuration" * (self.document["kind"] == "refutation")
+        text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
         text += " in the worst part" * bool(self.parts)
         if self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
