@@ -199,6 +199,7 @@ _CLASSES = (
         "Servos",
         "Task",
         "TimedPath",
+        "TolerantClaim",
         "Trajectory",
     ),
 )

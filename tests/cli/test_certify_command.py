@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import nullcontext
 
 
 def test_the_commands(cli, tmp_path):
@@ -27,3 +28,26 @@ def test_the_commands(cli, tmp_path):
     text = file.read_text().replace('"locked": -1', '"locked": 1')
     file.write_text(text)
     assert cli("certificate", "check", str(file))[0] == 2
+
+
+def test_a_tolerant_box(cli, tmp_path, monkeypatch):
+    words = ["certify", "tolerant", "planar-3r", "--box", "1.5 0.5", "--size", "0.1", "--out", str(tmp_path / "box")]
+    (tmp_path / "ranges.yaml").write_text("joint1: [-60, 30]\njoint2: [0, 80]\n")
+    ranges = ["--ranges", str(tmp_path / "ranges.yaml"), "--range", "3=0..80", "--degrees"]
+    code, out, _ = cli(*words, *ranges, "--json")
+    assert code == 0
+    assert {part["undecided"]["value"] for part in json.loads(out)["parts"].values()} == {0}
+    code, out, _ = cli("certificate", "check", str(tmp_path / "box" / "tolerant.certificate"))
+    assert code == 0
+    assert "healthy" in out
+    code, out, _ = cli(*words, *ranges, "--failures", "3", "--no-check")
+    assert code == 2  # of three joints at once
+    monkeypatch.setattr("holdfast.cli.before.certify.stopping", lambda said: nullcontext(lambda: True))
+    code, out, err = cli(*words, *ranges)
+    assert (code, err) == (130, "holdfast: stopped\n")
+    assert "undecided" in out
+    assert cli("certificate", "check", str(tmp_path / "box" / "tolerant.certificate"))[0] == 0
+    (tmp_path / "ranges.yaml").write_text("joint1: 60\n")
+    code, _, err = cli(*words, *ranges)
+    assert code == 2
+    assert "[LOW, HIGH]" in err

@@ -93,6 +93,9 @@ MADE = {
     "StationaryPoints": found(lambda: hf.stationary_points(law(), TARGET, {1: 1.0})),
     "Task": lambda: index().task,
     "TimedPath": timed,
+    "TolerantProof": found(
+        lambda: hf.certify(hf.certificates.tolerant_claim(arm(), (1.5, 0.5), 0.1, working_ranges={0: (0, 0.5)}, failures=[0]))
+    ),
     "TolerantWorkspace": found(
         lambda: hf.tolerant_workspace(arm().with_limits([-2] * 3, [2] * 3), "planar", points=4, angles=2)
     ),
@@ -102,7 +105,8 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "WaypointCheck"}
+WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "TolerantProof"}
+WITHOUT_FIGURE |= {"WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

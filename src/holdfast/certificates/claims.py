@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,10 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
+from holdfast.failures.sets import FailureSpec, single_joints
 
 Array = NDArray[np.float64]
 
 ROWS = {"planar": 2, "position": 3}
+_TASKS = {rows: task for task, rows in ROWS.items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,6 +41,33 @@ class ReachClaim:
     limits: Array
 
 
+@dataclass(frozen=True, kw_only=True)
+class TolerantClaim:
+    """Every target of a box is reached by the healthy arm within working ranges, and after any one joint locked within its own.
+
+    Attributes:
+        arm: The arm, all of whose joints turn.
+        task: ``position`` or ``planar``.
+        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m.
+        working_ranges: (n, 2) rad, within which the healthy arm is kept, and so a joint when it locks.
+        locks: Indices of the joints that may lock, one at a time, in order. After it the arm's own limits hold.
+    """
+
+    arm: Arm
+    task: str
+    box: Array
+    working_ranges: Array
+    locks: tuple[int, ...]
+
+    @property
+    def parts(self) -> tuple[ReachClaim, ...]:
+        """Of the healthy arm, then of each lock."""
+        own = np.column_stack([self.arm.lower, self.arm.upper])
+        made = partial(ReachClaim, arm=self.arm, task=self.task, box=self.box)
+        healthy = made(locked=-1, angle=None, limits=self.working_ranges)
+        return healthy, *(made(locked=k, angle=self.working_ranges[k], limits=own) for k in self.locks)
+
+
 @checked
 def reach_claim(
     arm: Arm,
@@ -59,15 +89,7 @@ def reach_claim(
     Raises:
         InputError: A box, joint, angle or limit that makes no claim, or an arm with slides.
     """
-    middle = np.asarray(centre, dtype=np.float64).reshape(-1)
-    if middle.shape not in ((2,), (3,)) or not np.isfinite(middle).all():
-        raise InputError("the centre of the box must be three finite numbers, m, or two for an arm that moves in a plane")
-    edges = np.broadcast_to(np.asarray(size, dtype=np.float64), middle.shape) if np.size(size) in (1, len(middle)) else None
-    if edges is None or not np.isfinite(edges).all() or (edges < 0).any() or not (edges > 0).any():
-        raise InputError(f"the size of the box must be one number or {len(middle)}, m, finite, not negative, not all 0")
-    if arm.prismatic.any():
-        slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
-        raise InputError(f"{slides[0]} slides; certificates are for arms whose joints all turn")
+    box = _box(arm, centre, size)
     kept = np.column_stack([arm.lower, arm.upper])
     for joint, pair in (limits or {}).items():
         kept[arm.joint_index(joint)] = _within(arm, joint, pair)
@@ -81,17 +103,67 @@ def reach_claim(
             raise InputError(
                 f"{arm.joint_names[which]} may lock beyond the limits that are given for it; widen these, or leave them out"
             )
-    rows = len(middle)
-    if arm.n - len(locked or ()) < rows:
-        raise InputError(f"{arm.n - len(locked or ())} joints are left for {rows} rows: no box can be reached")
-    return ReachClaim(
-        arm=arm,
-        task="planar" if rows == 2 else "position",
-        box=np.column_stack([middle - edges / 2, middle + edges / 2]),
-        locked=which,
-        angle=angle,
-        limits=kept,
-    )
+    _need_joints(arm, len(locked or ()), len(box))
+    return ReachClaim(arm=arm, task=_TASKS[len(box)], box=box, locked=which, angle=angle, limits=kept)
+
+
+@checked
+def tolerant_claim(
+    arm: Arm,
+    centre: ArrayLike,
+    size: ArrayLike,
+    *,
+    working_ranges: Mapping[str | int, tuple[float, float]] | None = None,
+    failures: FailureSpec = "single",
+) -> TolerantClaim:
+    """The claim that a box of targets is failure-tolerant: reached while healthy, and after any one joint has locked.
+
+    The healthy arm is kept within its working ranges, so a joint locks somewhere in its own; after that the arm uses all of
+    its limits.
+
+    Args:
+        arm: The arm; all of its joints must turn.
+        centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
+        size: Its edges, m: one number, or one along each axis; 0: none.
+        working_ranges: ``{joint: (low, high)}``, rad, within the limits; of a joint that is not named, its limits.
+        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
+
+    Raises:
+        InputError: A box, joint or range that makes no claim, a joint that may lock anywhere on a full circle without a
+            working range, or an arm with slides.
+        TaskError: No failure, or one of several joints at once.
+
+    Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
+    """
+    box = _box(arm, centre, size)
+    ranges = np.column_stack([arm.lower, arm.upper])
+    for joint, pair in (working_ranges or {}).items():
+        ranges[arm.joint_index(joint)] = _within(arm, joint, pair)
+    locks = tuple(sorted(single_joints(arm, failures)))
+    for k in locks:
+        if not np.isfinite(ranges[k]).all():
+            raise InputError(f"{arm.joint_names[k]} has no limits, so it may lock anywhere; give its working range")
+    _need_joints(arm, 1, len(box))
+    return TolerantClaim(arm=arm, task=_TASKS[len(box)], box=box, working_ranges=ranges, locks=locks)
+
+
+def _box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
+    """(m, 2) m, of an arm for which there are certificates."""
+    middle = np.asarray(centre, dtype=np.float64).reshape(-1)
+    if middle.shape not in ((2,), (3,)) or not np.isfinite(middle).all():
+        raise InputError("the centre of the box must be three finite numbers, m, or two for an arm that moves in a plane")
+    edges = np.broadcast_to(np.asarray(size, dtype=np.float64), middle.shape) if np.size(size) in (1, len(middle)) else None
+    if edges is None or not np.isfinite(edges).all() or (edges < 0).any() or not (edges > 0).any():
+        raise InputError(f"the size of the box must be one number or {len(middle)}, m, finite, not negative, not all 0")
+    if arm.prismatic.any():
+        slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
+        raise InputError(f"{slides[0]} slides; certificates are for arms whose joints all turn")
+    return np.column_stack([middle - edges / 2, middle + edges / 2])
+
+
+def _need_joints(arm: Arm, locked: int, rows: int) -> None:
+    if arm.n - locked < rows:
+        raise InputError(f"{arm.n - locked} joints are left for {rows} rows: no box can be reached")
 
 
 def _within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from heapq import heappop, heappush
 from time import monotonic
 
 import numpy as np
@@ -14,13 +16,14 @@ from holdfast.certificates.taylor import UNIT, Form, Reach
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
+Tell = Callable[[float], None]
 
 PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
 _POOL, _STARTS = 1000, 12  # targets, and random starts of each
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _STEPS, _STRIDE = 6, 0.5  # along self-motions, rad
 _CLIMB, _TYPICAL = 10, 16  # such steps of the pool, to prove more of cells that are so many times smaller than the root
-_AT_ONCE = 4096
+_AT_ONCE = 512
 _LOST = 1e6  # m: the error where the arm is singular
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
 
@@ -118,6 +121,11 @@ class Search:
         self._pool_at = starts[met, : reach.m]
         self._near = KDTree(starts[met] / self._unit) if met.any() else None
         self._climb(starts[met])
+        self.open = 0.0  # share of the root that nobody has looked at
+        self._open: list[tuple[int, int, Index, Index, Array]] = []
+        start = self.pool[:1] if len(self.pool) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
+        whole = np.zeros((1, len(root)), dtype=np.int64)
+        self._push(Cells(whole, whole, np.zeros(1, dtype=np.int64), start))
 
     def _climb(self, at: Array) -> None:
         """In place: the pool moves along its self-motions to where configurations prove more."""
@@ -153,21 +161,30 @@ class Search:
         axes = int((self.width > 0).sum())
         return float(np.median(1 / best) ** axes)
 
-    def run(self, until: float = np.inf) -> bool:
-        """Down to the smallest cells, or to a time (``monotonic``); False if that came first."""
-        axes = len(self.root)
-        start = self.pool[:1] if len(self.pool) else np.clip(np.zeros((1, self.reach.n)), *self.reach.limits.T)
-        level = Cells(
-            np.zeros((1, axes), dtype=np.int64), np.zeros((1, axes), dtype=np.int64), np.zeros(1, dtype=np.int64), start
-        )
-        while len(level.name):
-            following = []
-            for first in range(0, len(level.name), _AT_ONCE):
-                if monotonic() > until:
-                    return False
-                following.append(self._halved(level.take(np.arange(first, min(first + _AT_ONCE, len(level.name))))))
-            level = Cells(*(np.concatenate(x) for x in zip(*((c.place, c.depth, c.name, c.q) for c in following), strict=True)))
-        return True
+    def run(self, until: float = np.inf, stop: Callable[[], bool] = lambda: False, tell: Tell = lambda closed: None) -> bool:
+        """Down to the smallest cells, the largest first; or, to go on from another time, until it is time or to stop.
+
+        Args:
+            until: ``monotonic``.
+            stop: Asked before each batch of cells.
+            tell: Is told what share of the root is closed, of each batch.
+
+        Returns:
+            Whether nothing is left to do.
+        """
+        while self._open and monotonic() < until and not stop():
+            taken = [heappop(self._open) for _ in range(min(_AT_ONCE, len(self._open)))]
+            _, names, places, depths, starts = zip(*taken, strict=True)
+            self._halved(Cells(np.array(places), np.array(depths), np.array(names), np.array(starts)))
+            tell(1 - self.open)
+        return not self._open
+
+    def _push(self, cells: Cells) -> None:
+        """To be looked at."""
+        halvings = cells.depth.sum(axis=1)
+        self.open += float((0.5**halvings).sum())
+        for row in zip(halvings.tolist(), cells.name.tolist(), cells.place, cells.depth, cells.q, strict=True):
+            heappush(self._open, row)
 
     # ---- a batch of cells --------------------------------------------------------------------------------------
 
@@ -179,9 +196,10 @@ class Search:
         q[:, self.reach.locked] = at[:, -1]
         return q
 
-    def _halved(self, cells: Cells) -> Cells:
-        """Those that are proved are leaves; the halves of the others."""
+    def _halved(self, cells: Cells) -> None:
+        """Those that are proved are leaves; the halves of the others are to be looked at."""
         self.nodes += len(cells.name)
+        self.open -= float((0.5 ** cells.depth.sum(axis=1)).sum())
         scale = 0.5 ** (cells.depth + 1)
         half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
         q, found, part = self._tried(cells.q, centre, half)
@@ -204,7 +222,7 @@ class Search:
         rows, twice = np.arange(2 * len(some)), np.repeat(axis, 2)
         place[rows, twice] = 2 * place[rows, twice] + rows % 2
         depth[rows, twice] += 1
-        return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(q, 2, axis=0))
+        self._push(Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(q, 2, axis=0)))
 
     def _from_pool(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
         """In place: cells of which little is proved try the nearest of the pool, the smallest more of them."""

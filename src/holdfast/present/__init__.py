@@ -46,6 +46,7 @@ PRESENTERS = {
     "Task": ("arm.task", ""),
     "TaskChoice": ("teleop.choice", "teleop.bank"),
     "TimedPath": ("paths.path", ""),
+    "TolerantProof": ("certificates.console", ""),
     "TolerantWorkspace": ("reach.region", "reach.region"),
     "TradeOff": ("control.console", "control.trade_offs"),
     "Trajectory": ("motion.console", "motion.trajectory"),

@@ -1,17 +1,19 @@
-"""``holdfast certify``: reach. ``holdfast certificate``: check, show."""
+"""``holdfast certify``: reach, tolerant. ``holdfast certificate``: check, show."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 import holdfast as hf
+from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import (
     NOT_MET,
     ArmArgument,
     BaseOption,
+    FailuresOption,
     HoldOption,
     JsonOption,
     SeedOption,
@@ -20,10 +22,24 @@ from holdfast.cli.options import (
     read_by_joint,
     read_numbers,
 )
+from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
+from holdfast.failures.sets import read_failures
 from holdfast.present.results import printed
 
 REJECTED = 1  # exit code
+BoxOption = Annotated[
+    str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
+]
+SizeOption = Annotated[
+    str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
+]
+AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")]
+HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
+TimeOption = Annotated[
+    float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
+]
+CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
 
 command = typer.Typer(
@@ -41,10 +57,8 @@ certificate = typer.Typer(
 @command.command()
 def reach(
     arm: ArmArgument,
-    box: Annotated[str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)],
-    size: Annotated[
-        str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
-    ],
+    box: BoxOption,
+    size: SizeOption,
     lock: Annotated[
         str | None,
         typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
@@ -53,12 +67,10 @@ def reach(
         list[str] | None,
         typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")] = False,
-    halvings: Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")] = 8,
-    time_limit: Annotated[
-        float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
-    ] = None,
-    check: Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")] = True,
+    degrees: AnglesOption = False,
+    halvings: HalvingsOption = 8,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -68,7 +80,8 @@ def reach(
 ) -> None:
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
 
-    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something.
+    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -80,10 +93,70 @@ def reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    proof = hf.certify(claim, halvings=halvings, time_limit=time_limit, seed=seed)
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command()
+def tolerant(
+    arm: ArmArgument,
+    box: BoxOption,
+    size: SizeOption,
+    ranges: Annotated[
+        Path | None,
+        typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad.", show_default=False),
+    ] = None,
+    range_: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--range",
+            help="JOINT=LOW..HIGH, rad: a working range. May be given again. Default: the joint's limits.",
+            show_default=False,
+        ),
+    ] = None,
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: HalvingsOption = 8,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
+        "certificates"
+    ),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far.
+
+    Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
+    """
+    model = read_arm(arm, base, tip, hold)
+    texts = [*(_ranges_of(ranges) if ranges is not None else []), *(range_ or [])]
+    claim = hf.certificates.tolerant_claim(
+        model,
+        read_numbers("--box", box, "two or three numbers, m,"),
+        read_numbers("--size", size, "one number, or one for each axis, m,"),
+        working_ranges=_intervals(model, "--range", texts, degrees),
+        failures=read_failures(model, failures),
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+def _proved(
+    claim: hf.certificates.ReachClaim | hf.certificates.TolerantClaim, out: Path, check: bool, as_json: bool, **how: Any
+) -> None:
+    """Search, write, check, print."""
+    with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
+        proof = hf.certify(claim, **how, progress=progress, stop=stop)
     file = proof.write(out)
-    found = hf.check_certificate(file) if check else None
-    printed(found or proof, json_, [file])
+    found = hf.check_certificate(file) if check and not stop() else None
+    printed(found or proof, as_json, [file])
+    if stop():
+        raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
     if not proof.ok:
@@ -126,6 +199,20 @@ def show(file: FileArgument) -> None:
     volumes = document["volumes"]
     typer.echo(document["claim"])
     typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
+
+
+def _ranges_of(file: Path) -> list[str]:
+    """A file of working ranges, as options give them."""
+    from holdfast.files.yaml import content
+
+    try:
+        found = content(file, "holdfast certify tolerant --help", "a joint with its range, such as joint1: [-0.5, 0.5]")
+    except InputError as error:
+        raise InputError(f"ranges file '{file}': {error}") from error
+    for joint, pair in found.items():
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise InputError(f"ranges file '{file}': {joint} has {str(pair)[:40]!r}; give [LOW, HIGH]")
+    return [f"{joint}={low}..{high}" for joint, (low, high) in found.items()]
 
 
 def _intervals(arm: hf.Arm, option: str, texts: list[str], degrees: bool) -> dict[str | int, tuple[float, float]]:

@@ -1,0 +1,108 @@
+"""Certificates as their files hold them; :mod:`holdfast.certificates.verifier` says what each key is."""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast import __version__
+from holdfast.arm.model import Arm
+from holdfast.certificates import verifier
+from holdfast.certificates.claims import ROWS, ReachClaim, TolerantClaim
+from holdfast.certificates.search import PROVED, UNDECIDED, Tree
+from holdfast.certificates.taylor import UNIT, Chain
+
+Document = dict[str, Any]
+
+
+def reach(claim: ReachClaim, tree: Tree, *, seconds: float, nodes: int) -> Document:
+    """The certificate of a search."""
+    tokens, centres = tree.in_order()
+    rows = np.array(centres, dtype="<i4").reshape(-1, claim.arm.n)
+    parts = {"proved": tree.volume(PROVED), "refuted": Fraction(0), "undecided": tree.volume(UNDECIDED)}
+    return _signed(
+        _common("reach", claim, seconds, nodes)
+        | {
+            "locked": claim.locked,
+            "angle": None if claim.angle is None else _hexes(claim.angle),
+            "limits": _hexes(claim.limits),
+            "unit": UNIT.hex(),
+            "tree": _packed(tokens),
+            "centres": _packed(rows.tobytes()),
+            "refutations": [],
+            "volumes": {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()},
+        }
+    )
+
+
+def bundle(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:
+    """The certificate that names those of its parts, as files; of the worst part it has the volumes."""
+    listed = [
+        {"file": name, "digest": part["digest"], "locked": part["locked"]} for name, part in zip(names, parts, strict=True)
+    ]
+    spent = {key: sum(part[key] for part in parts) for key in ("seconds", "nodes")}
+    return _signed(
+        _common("bundle", claim, **spent)
+        | {
+            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
+            "working_ranges": _hexes(claim.working_ranges),
+            "locks": list(claim.locks),
+            "parts": listed,
+            "volumes": parts[worst]["volumes"],
+        }
+    )
+
+
+def undecided(document: Document) -> list[verifier.Cell]:
+    """The cells of a reach certificate that are not proved."""
+    tokens, box = verifier.unpacked(document["tree"], 2 * verifier.MOST_LEAVES, "tree"), document["target"]["box"]
+    return [cell for token, cell in verifier.cells(tokens, len(box) + (document["angle"] is not None)) if token != PROVED]
+
+
+def _common(kind: str, claim: ReachClaim | TolerantClaim, seconds: float, nodes: int) -> Document:
+    return {
+        "format": "holdfast-certificate",
+        "version": 1,
+        "kind": kind,
+        "arm": _stored(claim.arm),
+        "source": {"name": claim.arm.name},
+        "task": claim.task,
+        "target": {"axes": "xyz"[: ROWS[claim.task]], "box": _hexes(claim.box), "orientation": None},
+        "made_by": f"holdfast {__version__}",
+        "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
+        "seconds": seconds,
+        "nodes": nodes,
+    }
+
+
+def _signed(document: Document) -> Document:
+    """With the sentence of the claim and the digests."""
+    document["arm_digest"] = verifier.digest(document["arm"])
+    document["claim"] = verifier.sentence(document)
+    return document | {"digest": verifier.digest(document)}
+
+
+def _stored(arm: Arm) -> Document:
+    chain, limits = Chain.of(arm), np.column_stack([arm.lower, arm.upper])
+    frames = [
+        {"rotation": _hexes(turn.ravel()), "origin": _hexes(place)}
+        for turn, place in zip(chain.rotations, chain.origins, strict=True)
+    ]
+    joints = zip(arm.joint_names, frames, limits, strict=False)
+    stored = [{"name": name, "type": "revolute", **frame, "limits": _hexes(pair)} for name, frame, pair in joints]
+    return {"joints": stored, "tool": frames[-1]}
+
+
+def _hexes(values: NDArray[np.float64]) -> Any:
+    return [_hexes(x) for x in values] if np.ndim(values) else float(values).hex()
+
+
+def _packed(data: bytes) -> str:
+    return base64.b64encode(zlib.compress(data, 9)).decode()

@@ -1,0 +1,132 @@
+"""The search for proofs: one for each part of a claim."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from time import monotonic, perf_counter
+from typing import TypedDict, Unpack, overload
+
+import numpy as np
+
+from holdfast.arguments import checked
+from holdfast.certificates import documents, verifier
+from holdfast.certificates.claims import ROWS, ReachClaim, TolerantClaim
+from holdfast.certificates.proof import Proof, TolerantProof
+from holdfast.certificates.search import PROVED, UNDECIDED, Search
+from holdfast.certificates.taylor import Reach
+from holdfast.errors import InputError
+from holdfast.notice import Progress, says
+
+_FINE = 10_000  # of which progress is told: ten thousandths of all parts
+Stop = Callable[[], bool]
+
+
+class How(TypedDict, total=False):
+    """Arguments of :func:`certify`."""
+
+    halvings: int
+    time_limit: float | None
+    seed: int
+    progress: Progress | None
+    stop: Stop
+
+
+class _Part:
+    """The search for a proof of one claim.
+
+    Attributes:
+        claim: The claim.
+        closed: What share of it is proved, or as small as it may be.
+        finished: The smallest cells were reached.
+    """
+
+    def __init__(self, claim: ReachClaim, halvings: int, seed: int) -> None:
+        began = perf_counter()
+        self.claim, self.closed, self.finished = claim, 0.0, False
+        root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
+        self._search = Search(Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed)
+        cells = self._search.estimate()
+        if verifier.MOST_LEAVES < cells < np.inf:
+            raise InputError(
+                f"single configurations prove so little of this box that it would take some {cells:.0e} cells; "
+                "a smaller box or a narrower interval of the lock takes fewer"
+            )
+        self._seconds = perf_counter() - began
+
+    def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
+        """On with it until it is time (``monotonic``), or to stop."""
+        began = perf_counter()
+        self.finished = self._search.run(until, stop, partial(self._advance, tell))
+        self._seconds += perf_counter() - began
+
+    def _advance(self, tell: Callable[[], None], closed: float) -> None:
+        self.closed = closed
+        tell()
+
+    def proof(self) -> Proof:
+        """What is found so far."""
+        tree = self._search.tree
+        return Proof(
+            claim=self.claim,
+            proved=tree.volume(PROVED),
+            undecided=tree.volume(UNDECIDED),
+            leaves=len(tree.centre),
+            nodes=self._search.nodes,
+            finished=self.finished,
+            seconds=self._seconds,
+            document=documents.reach(self.claim, tree, seconds=self._seconds, nodes=self._search.nodes),
+        )
+
+
+@overload
+def certify(claim: ReachClaim, **how: Unpack[How]) -> Proof: ...
+@overload
+def certify(claim: TolerantClaim, **how: Unpack[How]) -> TolerantProof: ...
+@checked
+@says("searching for a proof")
+def certify(
+    claim: ReachClaim | TolerantClaim,
+    *,
+    halvings: int = 8,
+    time_limit: float | None = None,
+    seed: int = 0,
+    progress: Progress | None = None,
+    stop: Stop = lambda: False,
+) -> Proof | TolerantProof:
+    """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
+
+    Args:
+        claim: From :func:`holdfast.certificates.reach_claim` or :func:`holdfast.certificates.tolerant_claim`.
+        halvings: Of each axis, at most: what is still undecided then stays so.
+        time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
+            one does not need the others get. Without it the same seed gives the same certificate.
+        seed: Of all random draws.
+        progress: Called with what is decided and all, in ten thousandths of the parts' volumes.
+        stop: Asked now and then; once it says True, the rest stays undecided.
+
+    Returns:
+        A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`; found
+        by the prover and not yet verified. Its file is checked by :func:`check_certificate`, or without holdfast; see the
+        explanation of certificates.
+
+    Raises:
+        InputError: A number out of range, or a box that would take more than 2^24 cells.
+    """
+    if not 0 <= halvings <= 20:
+        raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
+    if time_limit is not None and not time_limit > 0:
+        raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
+    end = np.inf if time_limit is None else monotonic() + time_limit
+    parts = [_Part(part, halvings, seed) for part in (claim.parts if isinstance(claim, TolerantClaim) else [claim])]
+
+    def tell() -> None:
+        if progress is not None:
+            progress(int(_FINE * sum(part.closed for part in parts)), _FINE * len(parts))
+
+    while (open_parts := [part for part in parts if not part.finished]) and monotonic() < end and not stop():
+        for left, part in zip(range(len(open_parts), 0, -1), open_parts, strict=True):
+            now = monotonic()
+            part.run(now + (end - now) / left, stop, tell)
+    proofs = tuple(part.proof() for part in parts)
+    return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]
