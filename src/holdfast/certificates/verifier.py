@@ -110,6 +110,7 @@ def sentence(document: dict[str, Any]) -> str:
     names, target = [joint["name"] for joint in document["arm"]["joints"]], document["target"]
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw"}.get(axis, axis) for axis in target["axes"]]
     turned = f" and the rotation {[real(x) for x in target['orientation']]}" if target["orientation"] else ""
+    turned += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
     text = f"For every {document['task']} target with {spans(axes, target['box'])}{turned}"
     kept = f"a configuration within the limits ({spans(names, document['limits'])})"
     if document["kind"] == "bundle":
@@ -331,12 +332,12 @@ class Leaves:
         rows = by_joint.tolist()[: self.linear]
         if self.m == 6:
             # E is the identity where vee E = 0 and it turns by less than pi, of which its trace here and the angles of the
-            # leaf make sure. Turning the target turns E from the right: axes -E b, the last first.
-            roll, pitch, yaw = (_turn(axis, centre[3 + i] if self.turning else arb(0)) for i, axis in enumerate((2, 1, 0)))
-            off = turn * (roll * pitch * yaw if self.wanted is None else self.wanted).transpose()
+            # leaf make sure. Turning the target turns E from the right: axes -E b, roll's first.
+            roll, pitch, yaw = (_turn(axis, centre[3 + axis] if self.turning else arb(0)) for axis in range(3))
+            off = turn * (yaw * pitch * roll if self.wanted is None else self.wanted).transpose()
             if self.turning:
-                third, middle = [row[0] for row in (roll * pitch).tolist()], [row[1] for row in roll.tolist()]
-                turns[self.n :] = [(-off * mat(3, 1, b)).entries() for b in (third, middle, [0, 0, 1])]
+                about_x, about_y = [row[0] for row in (yaw * pitch).tolist()], [row[1] for row in yaw.tolist()]
+                turns[self.n :] = [(-off * mat(3, 1, b)).entries() for b in (about_x, about_y, [0, 0, 1])]
             by_turn = mat(turns).transpose()
             second = mat([row for z in turns for row in _vee(_skew(z) * off).tolist()]) * by_turn
             error += [(off[2, 1] - off[1, 2]) / 2, (off[0, 2] - off[2, 0]) / 2, (off[1, 0] - off[0, 1]) / 2]
@@ -351,7 +352,7 @@ class Leaves:
         inverse = np.linalg.pinv(np.nan_to_num(first[:, :, self.free]))
         made = np.zeros((len(first), self.n + self.turning, p + fixed + self.m))
         made[:, self.free, : self.linear], made[:, self.free, p + fixed :] = inverse[:, :, : self.linear], inverse
-        follow = {axis: self.n + 5 - axis for axis in range(3, p)} | ({p: self.locked} if fixed else {})
+        follow = {axis: self.n + axis - 3 for axis in range(3, p)} | ({p: self.locked} if fixed else {})
         for axis, variable in follow.items():
             made[:, variable, axis] = 1
             made[:, self.free, axis] = -np.einsum("lfm,lm->lf", inverse, first[:, :, variable])
