@@ -16,8 +16,8 @@ from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ROWS, ReachClaim, TolerantClaim
-from holdfast.certificates.search import PROVED, UNDECIDED, Tree
 from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 
 Document = dict[str, Any]
 
