@@ -194,6 +194,7 @@ _CLASSES = (
         "Objective",
         "Parameter",
         "Places",
+        "OutOfReachClaim",
         "ReachClaim",
         "Region",
         "Servos",

@@ -51,3 +51,19 @@ def test_a_tolerant_box(cli, tmp_path, monkeypatch):
     code, _, err = cli(*words, *ranges)
     assert code == 2
     assert "[LOW, HIGH]" in err
+
+
+def test_out_of_reach(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "out-of-reach", "planar-3r", "--lock", "2=90..100", "--degrees", "--out", str(file)]
+    code, out, _ = cli(*words, "--box", "2.5 1", "--size", "0.2", "--json")
+    assert code == 0
+    assert json.loads(out)["undecided"]["value"] == 0
+    assert "the tool is elsewhere" in cli("certificate", "show", str(file))[1]
+    code, out, _ = cli(*words, "--box", "1.5 1", "--size", "0.2")
+    assert code == 4
+    assert "Refuted: at (" in out
+    assert cli("certificate", "check", str(file))[0] == 0
+    code, out, _ = cli(*words, "--box", "2.6 0", "--size", "0.2", "--time-limit", "1e-9", "--no-check", "--json")
+    assert code == 3
+    assert json.loads(out)["witness"] is None

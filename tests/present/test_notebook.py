@@ -87,6 +87,7 @@ MADE = {
     "Path": path,
     "Recovery": recovered,
     "Proof": lambda: proof(),
+    "Refutation": found(lambda: hf.certify(hf.certificates.out_of_reach_claim(arm(), (2.9, 1.4), 0.1))),
     "Region": region,
     "Runs": found(lambda: hf.simulate(law(), X, TARGET, locked={"joint2": None})),
     "SelfMotion": found(lambda: hf.self_motion(arm(), TARGET, "planar", starts=4)),
@@ -106,7 +107,7 @@ MADE = {
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
 WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "TolerantProof"}
-WITHOUT_FIGURE |= {"WaypointCheck"}
+WITHOUT_FIGURE |= {"Refutation", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

@@ -28,6 +28,7 @@ PARTS = {
     "CertificateCheck",
     "Configurations",
     "Proof",
+    "Refutation",
     "TolerantProof",
     "WaypointCheck",
 }  # of a result, without a command that writes their page

@@ -179,3 +179,44 @@ def _within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:
             f"{arm.joint_names[k]} from {low:.4g} to {high:.4g} deg is outside of its limits, {least:.4g} to {most:.4g} deg"
         )
     return found
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutOfReachClaim:
+    """For every target of a box, every value at which one joint may be locked and every configuration: the tool is elsewhere.
+
+    Attributes:
+        arm, task, box, locked, angle, limits: As of :class:`ReachClaim`.
+    """
+
+    arm: Arm
+    task: str
+    box: Array
+    locked: int
+    angle: Array | None
+    limits: Array
+
+
+@checked
+def out_of_reach_claim(
+    arm: Arm,
+    centre: ArrayLike,
+    size: ArrayLike,
+    *,
+    locked: Mapping[str | int, tuple[float, float]] | None = None,
+    limits: Mapping[str | int, tuple[float, float]] | None = None,
+) -> OutOfReachClaim:
+    """The claim that no point of a box is reached, by the healthy arm or after a lock at any angle of an interval.
+
+    The arguments are those of :func:`reach_claim`.
+
+    Raises:
+        InputError: A box, joint, angle or limit that makes no claim, an arm with slides, or two coordinates for an arm that
+            does not move in a plane.
+    """
+    same = reach_claim(arm, centre, size, locked=locked, limits=limits)
+    if same.task == "planar":
+        turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
+        if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):
+            raise InputError("two coordinates are for arms that move in the xy plane; give the box of this one with three")
+    return OutOfReachClaim(arm=arm, task=same.task, box=same.box, locked=same.locked, angle=same.angle, limits=same.limits)

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import ROWS, ReachClaim, TolerantClaim
+from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.exclusion import Exclusion
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 
@@ -60,13 +61,40 @@ def bundle(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: S
     )
 
 
+def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> Document:
+    """The certificate of an exclusion, or of a witness that says the opposite."""
+    parts = {"proved": 1 - found.undecided, "refuted": Fraction(0), "undecided": found.undecided}
+    lemmas = [
+        {
+            "link": lemma.link,
+            "point": _hexes(lemma.point),
+            "least": _hexes(lemma.least),
+            "most": _hexes(lemma.most),
+            "tree": _packed(lemma.tree),
+        }
+        for lemma in found.lemmas
+    ]
+    return _signed(
+        _common("refutation", claim, seconds, found.nodes)
+        | {
+            "locked": claim.locked,
+            "angle": None if claim.angle is None else _hexes(claim.angle),
+            "limits": _hexes(claim.limits),
+            "tree": _packed(found.tree),
+            "lemmas": lemmas,
+            "witness": None if found.witness is None else _hexes(found.witness),
+            "volumes": {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()},
+        }
+    )
+
+
 def undecided(document: Document) -> list[verifier.Cell]:
     """The cells of a reach certificate that are not proved."""
     tokens, box = verifier.unpacked(document["tree"], 2 * verifier.MOST_LEAVES, "tree"), document["target"]["box"]
     return [cell for token, cell in verifier.cells(tokens, len(box) + (document["angle"] is not None)) if token != PROVED]
 
 
-def _common(kind: str, claim: ReachClaim | TolerantClaim, seconds: float, nodes: int) -> Document:
+def _common(kind: str, claim: ReachClaim | TolerantClaim | OutOfReachClaim, seconds: float, nodes: int) -> Document:
     return {
         "format": "holdfast-certificate",
         "version": 1,
@@ -100,8 +128,8 @@ def _stored(arm: Arm) -> Document:
     return {"joints": stored, "tool": frames[-1]}
 
 
-def _hexes(values: NDArray[np.float64]) -> Any:
-    return [_hexes(x) for x in values] if np.ndim(values) else float(values).hex()
+def _hexes(values: NDArray[np.float64] | float) -> Any:
+    return [_hexes(x) for x in np.asarray(values)] if np.ndim(values) else float(values).hex()
 
 
 def _packed(data: bytes) -> str:

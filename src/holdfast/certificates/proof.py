@@ -52,14 +52,14 @@ class Proof(Result):
         Raises:
             StoreError: The file cannot be written.
         """
-        return _written(self.document, Path(file))
+        return written(self.document, Path(file))
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         return [
             self.document["claim"],
             f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)}, "
-            f"undecided {verifier.per_cent(self.undecided, up=True)}{_early(self.finished)}.",
+            f"undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
@@ -156,7 +156,7 @@ class TolerantProof(Result):
         stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem).lstrip("-") or "tolerant"
         for part, name in zip(self.parts, self._names(stem), strict=True):
             part.write(path.with_name(name))
-        return _written(self.document(stem), path)
+        return written(self.document(stem), path)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -165,16 +165,18 @@ class TolerantProof(Result):
         return [
             self.document()["claim"],
             f"Found by the prover, not yet verified: whatever locks, proved {verifier.per_cent(self.tolerant)} of the targets "
-            f"at least; undecided {verifier.per_cent(self.undecided, up=True)}{most}{_early(self.finished)}.",
+            f"at least; undecided {verifier.per_cent(self.undecided, up=True)}{most}{early(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
 
 
-def _early(finished: bool) -> str:
+def early(finished: bool) -> str:
+    """What is said of a search that ended early."""
     return "" if finished else "; the search was stopped before the smallest cells were reached"
 
 
-def _written(document: dict[str, Any], path: Path) -> Path:
+def written(document: dict[str, Any], path: Path) -> Path:
+    """The file of a certificate."""
     replaced(path, (json.dumps(document, sort_keys=True, indent=1) + "\n").encode(), "certificate")
     return path

@@ -4,6 +4,10 @@ The file holds a bisection tree and a configuration for each leaf. Around it the
 first and second derivatives as balls (Arb), a bound for the third. With a section variable s this bounds |g - s| by e(S) over
 the leaf and a box of half widths S. Where e(S) <= S, the map s -> s - g sends that box into itself, so by Brouwer's theorem
 some s has g = 0: a configuration that reaches the target. Any matrix D may span the section; it decides whether e(S) <= S.
+
+A refutation is a tree over joints and targets. In each leaf a point of some link is farther from the target than the tool
+can be from this point, or nearer. How far that is, is a lemma, with a tree of its own over the joints behind the link.
+Distances are bounded by exact derivatives at the centre, in arrays of balls, and a bound for the third.
 """
 
 from __future__ import annotations
@@ -41,7 +45,8 @@ Array = NDArray[np.float64]
 Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
 
 MOST_BYTES, MOST_LEAVES, MOST_DEPTH, MOST_JOINTS, CHUNK = 256 << 20, 1 << 24, 200, 64, 256
-UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as version 1 holds no refutations
+UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
+LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere
 UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
 ROWS = {"planar xy": 2, "position xyz": 3, "pose xyz": 6, "pose xyzRPY": 6}  # by task and axes of the target
 NUMBER, TEXT, HASH = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
@@ -49,7 +54,8 @@ LIMITS, FRAME = [f"{NUMBER}|-?inf", 2], {"rotation": [NUMBER, 9], "origin": [NUM
 ARM = {"joints": [{"name": TEXT, "type": "revolute|prismatic", "limits": LIMITS, **FRAME}, ...], "tool": FRAME}
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
 VOLUMES = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": "reach|bundle", "arm": ARM}
+KINDS = "reach|bundle|refutation"
+COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KINDS, "arm": ARM}
 COMMON |= {"arm_digest": HASH, "source": ..., "claim": TEXT, "task": TEXT, "volumes": VOLUMES, "digest": HASH, **FOR_PEOPLE}
 real = float.fromhex
 
@@ -116,7 +122,10 @@ def sentence(document: dict[str, Any]) -> str:
     elif document["locked"] >= 0:
         text += f", and every value {spans(['from'], [document['angle']])} at which {names[document['locked']]} may be locked"
         kept += " with that value"
-    return f"{text}, {kept} reaches it; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
+    if document["kind"] == "refutation":
+        text, kept = f"{text} and every configuration{kept.removeprefix('a configuration')}: the tool is elsewhere", ""
+    ends = f", {kept} reaches it" if kept else ""
+    return f"{text}{ends}; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
 
 
 def load(path: Path) -> dict[str, Any]:
@@ -157,8 +166,14 @@ def _check(document: dict[str, Any]) -> None:
         form |= {"working_ranges": [LIMITS, n], "locks": [range(n), ...]}
         form |= {"parts": [part, len(locks) + 1 if isinstance(locks, list) else 0]}
     else:
-        form |= {"locked": range(-1, n), "angle": None if document.get("locked") == -1 else [NUMBER, 2]}
-        form |= {"tree": TEXT, "centres": TEXT, "unit": re.escape(UNIT.hex()), "refutations": [..., 0]}
+        form |= {"locked": range(-1, n), "angle": None if document.get("locked") == -1 else [NUMBER, 2], "tree": TEXT}
+    if document["kind"] == "reach":
+        form |= {"centres": TEXT, "unit": re.escape(UNIT.hex()), "refutations": [..., 0]}
+    if document["kind"] == "refutation":
+        good = rows != 6 and all(joint["type"] == "revolute" for joint in joints)
+        need(good, "refutations are of positions, and of joints that turn")
+        lemma = {"link": range(n), "point": [NUMBER, 3], "least": NUMBER, "most": NUMBER, "tree": TEXT}
+        form |= {"lemmas": [lemma, ...], "witness": [NUMBER, n] if document.get("witness") else None}
     _fit(document, form, "the certificate")
     limits = document["limits"]
     _within(limits, [joint["limits"] for joint in joints], "limits")
@@ -166,7 +181,7 @@ def _check(document: dict[str, Any]) -> None:
     _within(document.get("working_ranges", limits), limits, "working_ranges")
     if document.get("angle"):
         _within([document["angle"]], [limits[document["locked"]]], "angle")
-    need(document["kind"] == "reach" or (locks and locks == sorted(set(locks))), "locks must be in order, each once")
+    need(document["kind"] != "bundle" or (locks and locks == sorted(set(locks))), "locks must be in order, each once")
     for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
         need(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
 
@@ -182,13 +197,13 @@ def unpacked(text: str, most: int, what: str) -> bytes:
     return data
 
 
-def cells(tree: bytes, axes: int) -> Iterator[tuple[int, Cell]]:
-    """Token and cell of each leaf, in the order of the tree."""
+def cells(tree: bytes, axes: int, last: int = 2) -> Iterator[tuple[int, Cell]]:
+    """Token and cell of each leaf, in the order of the tree; tokens up to the last are those of leaves."""
     waiting: list[Cell] = [((0, 0),) * axes]
     for token in tree:
         need(waiting, "the tree goes on behind its end")
         cell, axis = waiting.pop(), token - SPLIT
-        if token <= 2:
+        if token <= last:
             yield token, cell
             continue
         good = 0 <= axis < axes and sum(d for _, d in cell) < MOST_DEPTH
@@ -242,14 +257,19 @@ def _turn(axis: int, angle: Any) -> Any:
     return flint.arb_mat(turn)
 
 
-def _rotation(numbers: list[str]) -> Any:
-    """Balls around nine numbers that hold the nearest rotation: it is nearer than the defect |R'R - I| (Frobenius)."""
+def _defect(numbers: list[str]) -> float:
+    """Above |R'R - I| (Frobenius): the nearest rotation is nearer than that."""
     matrix = flint.arb_mat(3, 3, [real(x) for x in numbers])
     gram = (matrix.transpose() * matrix - _turn(0, flint.arb(0))).entries()
     defect = math.hypot(*(_above(abs(x)) for x in gram)) * UP
     good = defect < 1e-12 and matrix.det() > 0
     need(good, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
-    return flint.arb_mat(3, 3, [flint.arb(real(x), defect) for x in numbers])
+    return defect
+
+
+def _rotation(numbers: list[str]) -> Any:
+    """Balls around nine numbers that hold the nearest rotation."""
+    return flint.arb_mat(3, 3, [flint.arb(real(x), _defect(numbers)) for x in numbers])
 
 
 class Leaves:
@@ -384,6 +404,224 @@ class Leaves:
         return len(chunk), [cell for (cell, _), proved in zip(chunk, good, strict=True) if not proved]
 
 
+class Balls:
+    """An array of true numbers, each within ``off`` of ``at``."""
+
+    def __init__(self, at: Any, off: Any = 0.0) -> None:
+        self.at: Array = np.asarray(at, dtype=np.float64)
+        self.off: Array = np.broadcast_to(np.asarray(off, dtype=np.float64), self.at.shape)
+
+    def __getitem__(self, key: Any) -> Balls:
+        return Balls(self.at[key], self.off[key])
+
+    def __neg__(self) -> Balls:
+        return Balls(-self.at, self.off)
+
+    def __add__(self, other: Balls) -> Balls:
+        at = self.at + other.at
+        return Balls(at, (self.off + other.off + 2.0**-52 * abs(at)) * UP + LEAST)
+
+    @property
+    def size(self) -> Array:
+        """Above the absolute values."""
+        return (abs(self.at) + self.off) * UP
+
+    @property
+    def low(self) -> Array:
+        """Below the numbers."""
+        return np.nextafter(self.at - self.off, -np.inf)
+
+
+def times(form: str, a: Balls, b: Balls) -> Balls:
+    """A product of arrays, as of ``einsum``, whose sums have at most 15 terms: each is off by less than 16 roundings."""
+    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-48 * abs(a.at), abs(b.at))))
+    return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
+
+
+def crossed(a: Balls) -> Balls:
+    """The matrices (..., 3, 3) that take b to a x b."""
+    made = [np.zeros((*a.at.shape, 3)) for _ in range(2)]
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        for x, given, sign in ((made[0], a.at, -1.0), (made[1], a.off, 1.0)):
+            x[..., i, j], x[..., j, i] = sign * given[..., k], given[..., k]
+    return Balls(*made)
+
+
+def stacked(parts: list[Balls], axis: int) -> Balls:
+    """Along a new axis."""
+    return Balls(np.stack([x.at for x in parts], axis), np.stack([x.off for x in parts], axis))
+
+
+def bent(slope: Array, second: Balls, half: Array) -> Array:
+    """Above what slopes (their sizes) and second derivatives, by pairs j <= k, take from a number within half widths."""
+    own, pairs = np.diagonal(second.low, axis1=1, axis2=2), np.triu(second.size, 1)
+    most = np.where(slope < own * half, slope**2 / (2 * own), slope * half - own * half**2 / 2)
+    return np.asarray((most.sum(axis=1) + np.einsum("nj,njk,nk->n", half, pairs, half)) * UP + LEAST)
+
+
+class Apart:
+    """The leaves of a refutation: the tool is not where the target is."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given = document | {"tree": ""}
+        joints, limits, locked = document["arm"]["joints"], list(document["limits"]), document["locked"]
+        if locked >= 0:
+            limits[locked] = document["angle"]
+        self.n, self.rows = len(joints), len(document["target"]["axes"])
+        full, ends = math.nextafter(math.pi, 4), [[real(x) for x in pair] for pair in limits]
+        ends = [[low, high] if high - low < 2 * math.pi else [-full, full] for low, high in ends]
+        ends += [[real(x) for x in pair] for pair in document["target"]["box"]]
+        self.low, self.width = [Fraction(low) for low, _ in ends], [Fraction(high) - Fraction(low) for low, high in ends]
+        frames = [*joints, document["arm"]["tool"]]
+        self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
+        self.turns = [Balls([real(x) for x in frame["rotation"]], _defect(frame["rotation"])) for frame in frames]
+        self.turns = [Balls(turn.at.reshape(3, 3), turn.off.reshape(3, 3)) for turn in self.turns]
+        self.points = [np.array([real(x) for x in lemma["point"]]) for lemma in document["lemmas"]]
+        if self.rows == 2:  # all that moves, moves in the plane: heights count nothing
+            flat = all(
+                abs(turn.at[2, 2]) == 1 and not turn.at[2, :2].any() and not turn.at[:2, 2].any() for turn in self.turns[:-1]
+            )
+            need(flat, "a planar target cannot be refuted for an arm that leaves the plane")
+            self.origins, self.points = ([x * [1, 1, 0] for x in some] for some in (self.origins, self.points))
+        self.links = [lemma["link"] for lemma in document["lemmas"]]
+        self.least, self.most = ([real(lemma[key]) for lemma in document["lemmas"]] for key in ("least", "most"))
+        self._known: dict[tuple[int, tuple[int, int]], tuple[float, ...]] = {}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Apart, (self._given,)
+
+    def middles(self, axis: int, parts: Iterable[tuple[int, int]]) -> Array:
+        """Of parts of an axis the middle, a bound of its error, the half width above, sine and cosine (parts, 5)."""
+        found = []
+        for part in parts:
+            if (axis, part) not in self._known:
+                k, d = part
+                exact, half = self.low[axis] + self.width[axis] * Fraction(2 * k + 1, 2 << d), self.width[axis] / (2 << d)
+                sine, cosine = flint.arb(flint.fmpq(exact.numerator, exact.denominator)).sin_cos()
+                need(max(_above(sine.rad()), _above(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
+                middle, above = float(exact), math.nextafter(float(half), math.inf)
+                self._known[axis, part] = middle, 2.0**-52 * abs(middle), above, float(sine), float(cosine)
+            found.append(self._known[axis, part])
+        return np.array(found)
+
+    def moved(self, first: int, end: Array, joints: list[Array]) -> tuple[Balls, Balls, Balls, Array]:
+        """A point of a link seen from another, axes, derivatives by the joints between, and the lengths that these carry."""
+        count, last = len(joints[0]) if joints else 1, first + len(joints)
+        tip, turn = Balls(np.zeros((count, 3))), Balls(np.broadcast_to(np.eye(3), (count, 3, 3)))
+        axes, places, lengths = [], [], np.zeros(len(joints))
+        for k, joint in enumerate(joints, first):
+            tip, turn = tip + times("nij,j->ni", turn, Balls(self.origins[k])), times("nij,jk->nik", turn, self.turns[k])
+            axes.append(turn[:, :, 2])
+            places.append(tip)
+            about = np.zeros((count, 3, 3))
+            about[:, 0, 0] = about[:, 1, 1] = joint[:, 4]
+            about[:, 1, 0], about[:, 0, 1], about[:, 2, 2] = joint[:, 3], -joint[:, 3], 1
+            turn = times("nij,njk->nik", turn, Balls(about, 2.0**-52))
+            link, after = (
+                end if k + 1 == last else self.origins[k + 1],
+                end if k + 2 == last else self.origins[min(k + 2, self.n)],
+            )
+            whole = Balls(link * [1, 1, 0])
+            if k + 1 < last:
+                whole += times("ij,j->i", self.turns[k + 1], Balls(after * [0, 0, 1]))
+            lengths[k - first] = math.hypot(*whole.size) * UP
+        tip += times("nij,j->ni", turn, Balls(end))
+        if not joints:
+            return tip, Balls(np.zeros((1, 0, 3))), Balls(np.zeros((1, 0, 3))), lengths
+        z = stacked(axes, 1)
+        return tip, z, times("nkij,nkj->nki", crossed(z), stacked([tip + -place for place in places], 1)), lengths
+
+    def nearest(self, v: Balls, z: Balls, columns: Balls, lengths: Array, half: Array, wide: Array) -> Array:
+        """Below the distance: along a direction e, of length 1 at most, whichever it is; two are tried."""
+        swept = np.concatenate([columns.at * half[:, :, None], np.eye(3) * wide[:, None]], axis=1)
+        spread = np.einsum("nka,nkb->nab", swept, swept) + 1e-6 * np.eye(3) * (v.at**2).sum(axis=1)[:, None, None]
+        steep = np.linalg.solve(spread + 1e-30 * np.eye(3), v.at[:, :, None])[:, :, 0]
+        third, best = (np.cumsum(half, axis=1) ** 3 * lengths).sum(axis=1) / 6, np.full(len(v.at), -np.inf)
+        for along in (v.at, steep):
+            e = along / np.sqrt((along**2).sum(axis=1))[:, None] * (1 - 1e-12)
+            e = Balls(np.where(((e**2).sum(axis=1) < 1 - 1e-13)[:, None], e, 0.0))
+            slope = times("na,nka->nk", e, columns).size
+            second = times("nja,nka->njk", times("nkij,nj->nki", -crossed(z), e), columns)
+            loss = bent(slope, second, half) + (abs(e.at) * wide).sum(axis=1) + third
+            best = np.maximum(best, np.nextafter(times("na,na->n", e, v).low - loss * UP, -np.inf))
+        return best
+
+    def farthest(self, v: Balls, z: Balls, columns: Balls, lengths: Array, half: Array, wide: Array) -> Array:
+        """Above the distance, from half its square: its third derivative is at most 3 |t'| |t''| + |t| times the point's."""
+        count, joints = half.shape
+        back = Balls(np.broadcast_to(-np.eye(3), (count, 3, 3)))
+        whole = Balls(np.concatenate([columns.at, back.at], axis=1), np.concatenate([columns.off, back.off], axis=1))
+        bend = times("nja,nka->njk", times("nkij,nj->nki", -crossed(z), v), columns)
+        second = times("nja,nka->njk", whole, whole)
+        second.off = second.off.copy()
+        inner = second[:, :joints, :joints] + bend
+        second.at[:, :joints, :joints], second.off[:, :joints, :joints] = inner.at, inner.off
+        width, d = np.concatenate([half, wide], axis=1), np.sqrt((v.size**2).sum(axis=1)) * UP
+        c = np.cumsum(half, axis=1)
+        one, two, three = ((c**power * lengths).sum(axis=1) for power in (1, 2, 3))
+        one += np.sqrt((wide**2).sum(axis=1)) * UP
+        total = bent(times("na,nka->nk", v, whole).size, -second, width) + (3 * one * two + (d + one) * three) / 6
+        return np.asarray(np.nextafter(np.sqrt((d**2 + 2 * total) * UP), np.inf))
+
+    def excluded(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves of the tree: by a lemma, or by none (-1), in which case the distance of the tool itself must be above 0."""
+        last, end = (self.links[which], self.points[which]) if which >= 0 else (self.n, self.origins[-1])
+        joints = [self.middles(k, (cell[k] for cell in parts)) for k in range(last)]
+        axes = [self.middles(self.n + a, (cell[self.n + a] for cell in parts)) for a in range(self.rows)]
+        axes += [np.zeros((len(parts), 5))] * (3 - self.rows)
+        target = stacked([Balls(-axis[:, 0], axis[:, 1]) for axis in axes], 1)
+        tip, z, columns, lengths = self.moved(0, end, joints)
+        half = np.stack([joint[:, 2] for joint in joints], 1) if joints else np.zeros((len(parts), 0))
+        if not joints:
+            z = columns = Balls(np.zeros((len(parts), 0, 3)))
+        given = tip + target, z, columns, lengths, half, np.stack([axis[:, 2] for axis in axes], 1)
+        least, most = (self.least[which], self.most[which]) if which >= 0 else (0.0, 0.0)
+        return np.asarray((self.nearest(*given) > most) | (self.farthest(*given) < least))
+
+    def keeps(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves of a lemma: whether the tool keeps its distance from the point."""
+        first, point = self.links[which], self.points[which]
+        joints = [self.middles(first + k, (cell[k] for cell in parts)) for k in range(self.n - first)]
+        tip, z, columns, lengths = self.moved(first, self.origins[-1], joints)
+        half = np.stack([joint[:, 2] for joint in joints], 1)
+        # Where the first axes pass by the point at a distance, turning about these changes the tool's by so much at most.
+        aside, still = np.zeros(len(parts)), np.ones(len(parts), dtype=bool)
+        for k in range(len(joints)):
+            tip_k = self.moved(first, self.origins[first + k], joints[:k])[0] if k else Balls(self.origins[first][None])
+            by = times("nij,nj->ni", crossed(z[:, k]), Balls(np.broadcast_to(point, (len(tip_k.at), 3))) + -tip_k)
+            cost = np.sqrt((by.size**2).sum(axis=1)) * np.minimum(half[:, k], 2) * UP
+            still &= cost < 1e-6
+            half[:, k], aside = np.where(still, 0.0, half[:, k]), (aside + np.where(still, cost, 0.0)) * UP
+            if not still.any():
+                break
+        given = tip + Balls(np.broadcast_to(-point, (len(parts), 3))), z, columns, lengths, half, np.zeros((len(parts), 3))
+        near, far = np.nextafter(self.nearest(*given) - aside, -np.inf), np.nextafter(self.farthest(*given) + aside, np.inf)
+        return np.asarray(((near >= self.least[which]) | (self.least[which] <= 0)) & (far <= self.most[which]))
+
+    def holds(self, witness: list[str]) -> bool:
+        """Whether a configuration is one of those that are meant, and its tool in the box of targets."""
+        q, given = [real(x) for x in witness], self._given
+        ranges = [given["angle"] if k == given["locked"] else pair for k, pair in enumerate(given["limits"])]
+        within = all(real(pair[0]) <= x <= real(pair[1]) for x, pair in zip(q, ranges, strict=True))
+        angles = [[float(y) for y in flint.arb(x).sin_cos()] for x in q]
+        tip = self.moved(0, self.origins[-1], [np.array([[x, 0, 0, *angle]]) for x, angle in zip(q, angles, strict=True)])[0]
+        sides = [[real(x) for x in pair] for pair in given["target"]["box"]]
+        low, high = tip.low[0], -(-tip).low[0]
+        inside = all(a <= x and y <= b for (a, b), x, y in zip(sides, low, high, strict=False))
+        return within and max(map(abs, q)) < 100 and inside
+
+    def rejected(self, chunk: list[tuple[Cell, tuple[int, int]]]) -> tuple[int, list[tuple[Cell, tuple[int, int]]]]:
+        """How many leaves were checked, and which of them prove nothing; each with its tree, -1 the main one, and its lemma."""
+        bad = list[tuple[Cell, tuple[int, int]]]()
+        with flint.ctx.workprec(64), np.errstate(all="ignore"):
+            for kind in sorted({kind for _, kind in chunk}):
+                parts = [cell for cell, other in chunk if other == kind]
+                good = self.excluded(kind[1], parts) if kind[0] < 0 else self.keeps(kind[0], parts)
+                bad += [(cell, kind) for cell, fine in zip(parts, good, strict=True) if not fine]
+        return len(chunk), bad
+
+
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
     """What the check of a certificate found. What rejected leaves cover counts as undecided."""
@@ -396,6 +634,7 @@ class Verdict:
     undecided: Fraction  # of the root box; of a bundle in its worst part
     shadow: frozenset[Cell]  # cells of targets for which something is undecided
     parts: tuple[Verdict, ...] = ()
+    refuted: bool = False  # a configuration shows that the claim is false
 
     @property
     def sampled(self) -> bool:
@@ -410,12 +649,76 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """What was found, for people: never rounded up to the whole or down to nothing."""
+        text = "Rejected: the witness is none."
+        if self.document.get("witness"):
+            at = ", ".join(repr(real(x)) for x in self.document["witness"])
+            return f"Refuted: at ({at}) the tool is in the box." if self.refuted else text
         text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
+        text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
         text += " in the worst part" * bool(self.parts)
         if self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
+
+
+def _looked_at(leaves: Any, chosen: Iterator[Any], workers: int, tell: Callable[[int], None]) -> tuple[int, list[Any]]:
+    """How many leaves were checked, and those that were rejected."""
+    checked, rejected = 0, list[Any]()
+    with ExitStack() as stack:
+        spread: Callable[..., Iterable[tuple[int, list[Any]]]] = map
+        if workers > 1:
+            spread = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
+        for size, bad in spread(leaves.rejected, iter(lambda: list(islice(chosen, CHUNK)), [])):
+            checked, rejected = checked + size, rejected + bad
+            tell(size)
+    return checked, rejected
+
+
+def _agree(document: dict[str, Any], undecided: Fraction) -> None:
+    """The volumes of the file are those of its tree."""
+    volumes = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
+    written = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
+    need(document["volumes"] == written, "volumes are not those of the tree")
+
+
+def _picked(count: int, sample: int | None) -> Iterable[int]:
+    """The numbers of the leaves that are checked, ordered by chance or all."""
+    return range(count) if sample is None else frozenset(random.SystemRandom().sample(range(count), max(0, min(sample, count))))
+
+
+def _refutation(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    began, leaves, most = time.perf_counter(), Apart(document), 2 * MOST_LEAVES - 1
+    main, axes, last = unpacked(document["tree"], most, "tree"), leaves.n + leaves.rows, 2 + len(leaves.links)
+    need(last < SPLIT, f"there are more than {SPLIT - LEMMA} lemmas")
+    trees = [unpacked(lemma["tree"], most, "tree of a lemma") for lemma in document["lemmas"]]
+    undecided = [cell for token, cell in cells(main, axes, last) if token in (1, 2)]
+    need(not any(tree.count(token) for tree in trees for token in (1, 2)), "a lemma is not proved everywhere")
+    _agree(document, volume(undecided))
+    count = sum(tree.count(0) for tree in trees) + sum(main.count(token) for token in (PROVED, *range(LEMMA, last + 1)))
+
+    def proofs() -> Iterator[tuple[Cell, tuple[int, int]]]:
+        for k, tree in enumerate(trees):
+            yield from ((cell, (k, k)) for _, cell in cells(tree, leaves.n - leaves.links[k]))
+        yield from ((cell, (-1, max(token, 2) - LEMMA)) for token, cell in cells(main, axes, last) if token not in (1, 2))
+
+    if document["witness"]:
+        need(main == b"\2" and not trees, "beside a witness nothing is proved")
+        with flint.ctx.workprec(64):
+            count, checked, good = 1, 1, leaves.holds(document["witness"])
+        rejected = [] if good else [(undecided[0], (-1, -1))]
+    else:
+        good, picked = False, _picked(count, sample)
+        chosen = (proof for index, proof in enumerate(proofs()) if index in picked)
+        checked, rejected = _looked_at(leaves, chosen, workers, tell)
+        broken = {tree for _, (tree, _) in rejected if tree >= 0}
+        bad = {cell for cell, (tree, _) in rejected if tree < 0}
+        undecided += [cell for cell, (tree, which) in proofs() if tree < 0 and (which in broken or cell in bad)]
+    return Verdict(
+        document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected),
+        seconds=time.perf_counter() - began, undecided=volume(undecided), refuted=good,
+        shadow=frozenset(cell[leaves.n :] for cell in undecided),
+    )  # fmt: skip
 
 
 def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
@@ -427,20 +730,11 @@ def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Cal
     need(len(packed) == 4 * leaves.n * count, "there are fewer centres than leaves")
     centres = np.frombuffer(packed, "<i4").reshape(count, leaves.n)
     need(leaves.locked < 0 or not centres[:, leaves.locked].any(), "centres of the locked joint must be 0")
-    volumes = {"proved": 1 - open_part, "refuted": Fraction(0), "undecided": open_part}
-    written = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
-    need(document["volumes"] == written, "volumes are not those of the tree")
-    picked = set(range(count) if sample is None else random.SystemRandom().sample(range(count), max(0, min(sample, count))))
+    _agree(document, open_part)
+    picked = _picked(count, sample)
     proofs = zip((cell for token, cell in cells(tree, axes) if token == PROVED), centres, strict=True)
     chosen = (proof for index, proof in enumerate(proofs) if index in picked)
-    checked, rejected = 0, list[Cell]()
-    with ExitStack() as stack:
-        spread: Callable[..., Iterable[tuple[int, list[Cell]]]] = map
-        if workers > 1:
-            spread = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
-        for size, bad in spread(leaves.rejected, iter(lambda: list(islice(chosen, CHUNK)), [])):
-            checked, rejected = checked + size, rejected + bad
-            tell(size)
+    checked, rejected = _looked_at(leaves, chosen, workers, tell)
     return Verdict(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected),
         seconds=time.perf_counter() - began, undecided=open_part + volume(rejected),
@@ -461,8 +755,8 @@ def verify(
     need(flint is not None, "checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
     path, tell = Path(path), progress or (lambda size: None)
     document = load(path)
-    if document["kind"] == "reach":
-        return _reach(document, sample, workers, tell)
+    if document["kind"] != "bundle":
+        return {"reach": _reach, "refutation": _refutation}[document["kind"]](document, sample, workers, tell)
     files, ranges = [load(path.parent / part["file"]) for part in document["parts"]], document["working_ranges"]
     same = {"kind": "reach"} | {key: document[key] for key in ("arm", "task", "target")}
     for part, file, locked in zip(document["parts"], files, [-1, *document["locks"]], strict=True):

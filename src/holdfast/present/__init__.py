@@ -37,6 +37,7 @@ PRESENTERS = {
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("recovery.console", "recovery.motion"),
     "Proof": ("certificates.console", ""),
+    "Refutation": ("certificates.console", ""),
     "Region": ("regions.region", "regions.region"),
     "Runs": ("simulation.console", "simulation.run"),
     "SelfMotion": ("solvers.self_motions", "solvers.self_motions"),

@@ -1,4 +1,4 @@
-"""``holdfast certify``: reach, tolerant. ``holdfast certificate``: check, show."""
+"""``holdfast certify``: reach, tolerant, out-of-reach. ``holdfast certificate``: check, show."""
 
 from __future__ import annotations
 
@@ -27,12 +27,20 @@ from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
 from holdfast.present.results import printed
 
-REJECTED = 1  # exit code
+REJECTED, REFUTED = 1, 4  # exit codes
 BoxOption = Annotated[
     str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
 ]
 SizeOption = Annotated[
     str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
+]
+LockOption = Annotated[
+    str | None,
+    typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
+]
+LimitOption = Annotated[
+    list[str] | None,
+    typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
 ]
 AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")]
 HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
@@ -59,14 +67,8 @@ def reach(
     arm: ArmArgument,
     box: BoxOption,
     size: SizeOption,
-    lock: Annotated[
-        str | None,
-        typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
-    ] = None,
-    limit: Annotated[
-        list[str] | None,
-        typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
-    ] = None,
+    lock: LockOption = None,
+    limit: LimitOption = None,
     degrees: AnglesOption = False,
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
@@ -87,6 +89,42 @@ def reach(
     """
     model = read_arm(arm, base, tip, hold)
     claim = hf.certificates.reach_claim(
+        model,
+        read_numbers("--box", box, "two or three numbers, m,"),
+        read_numbers("--size", size, "one number, or one for each axis, m,"),
+        locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
+        limits=_intervals(model, "--limit", limit or [], degrees),
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command("out-of-reach")
+def out_of_reach(
+    arm: ArmArgument,
+    box: BoxOption,
+    size: SizeOption,
+    lock: LockOption = None,
+    limit: LimitOption = None,
+    degrees: AnglesOption = False,
+    halvings: Annotated[int, typer.Option("--halvings", help="Of each joint and axis of the box, at most.")] = 16,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("out-of-reach.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that no point of a box is reached, healthy or wherever one joint locks in an interval.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 4 if a configuration is found whose tool is in the box, 1
+    if the check rejects something. Ctrl-C writes what is proved so far.
+
+    Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
+    """
+    model = read_arm(arm, base, tip, hold)
+    claim = hf.certificates.out_of_reach_claim(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
@@ -146,9 +184,7 @@ def tolerant(
     _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
-def _proved(
-    claim: hf.certificates.ReachClaim | hf.certificates.TolerantClaim, out: Path, check: bool, as_json: bool, **how: Any
-) -> None:
+def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> None:
     """Search, write, check, print."""
     with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
         proof = hf.certify(claim, **how, progress=progress, stop=stop)
@@ -159,6 +195,8 @@ def _proved(
         raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
+    if isinstance(proof, hf.certificates.Refutation) and proof.refuted:
+        raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)
 

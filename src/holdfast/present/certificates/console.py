@@ -8,15 +8,16 @@ from typing import Any
 
 from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.proof import Proof, TolerantProof
+from holdfast.certificates.refutations import Refutation
 from holdfast.certificates.verifier import per_cent
 from holdfast.present.printing import Rows
 
-Found = Proof | TolerantProof | CertificateCheck
+Found = Proof | TolerantProof | Refutation | CertificateCheck
 
 
 def to_dict(found: Found) -> dict[str, Any]:
     """Shares as exact fractions and as numbers, cells, seconds; of a failure-tolerant box its parts as well."""
-    shares, counts = _shares(found), {"leaves": found.leaves}
+    shares, counts, witness = _shares(found), {"leaves": found.leaves}, dict[str, Any]()
     parts: Mapping[str, Found]
     if isinstance(found, CertificateCheck):
         claim, parts = found.claim, dict(zip(map(_lock, found.parts), found.parts, strict=True))
@@ -27,8 +28,10 @@ def to_dict(found: Found) -> dict[str, Any]:
         claim, parts = found.document["claim"], {}
     if not isinstance(found, CertificateCheck):
         counts |= {"nodes": found.nodes, "finished": found.finished, "verified": False}
+    if isinstance(found, Refutation):
+        witness = {"witness": None if found.witness is None else found.witness.tolist()}
     written = {key: {"value": float(part), "fraction": _text(part)} for key, part in shares.items()}
-    said = {"claim": claim, **written, **counts, "seconds": found.seconds}
+    said = {"claim": claim, **written, **counts, **witness, "seconds": found.seconds}
     return said | ({"parts": {name: to_dict(part) for name, part in parts.items()}} if parts else {})
 
 
@@ -47,6 +50,8 @@ def next_steps(found: Found, name: str) -> list[str]:
     """What one does with it."""
     if isinstance(found, Proof):
         return [f'hf.check_certificate({name}.write("reach.certificate"))  # by other code']
+    if isinstance(found, Refutation):
+        return [f'hf.check_certificate({name}.write("out-of-reach.certificate"))  # by other code']
     if isinstance(found, TolerantProof):
         return [f'hf.check_certificate({name}.write("certificates"))  # by other code']
     return [f"{name}.ok  # every cell was checked and accepted"]
