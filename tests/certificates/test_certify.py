@@ -13,7 +13,9 @@ from scipy.optimize import least_squares
 import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, verifier
+from holdfast.certificates.search import Search
 from holdfast.certificates.taylor import Chain, Form, Reach
+from holdfast.certificates.tree import PROVED
 from holdfast.certificates.verifier import per_cent
 from holdfast.errors import InputError
 
@@ -153,6 +155,21 @@ def test_a_time_limit_leaves_the_rest_undecided(panda):
     assert proof.proved + proof.undecided == 1
     tokens = verifier.unpacked(proof.document["tree"], 10**7, "tree")
     assert sum(token >= 16 for token in tokens) + 1 == sum(token < 16 for token in tokens)
+
+
+def test_what_is_proved_first(three):
+    """A time limit in batches: the share proved grows all the way, and never shrinks."""
+    claim = reach_claim(three, (1.3, 0.6), 0.8, locked={"joint2": (0.6, 2.0)})
+    root = np.vstack([claim.box, claim.angle])
+    search = Search(Reach(three, 2, 1, claim.limits), root, 8, 0)
+    shares = []
+    search.run(tell=lambda closed: shares.append((closed, search.nodes, float(search.tree.volume(PROVED)))))
+    closed, nodes, proved = np.array(shares).T
+    assert (np.diff(closed) >= 0).all()
+    assert (np.diff(proved) >= 0).all()
+    assert closed[-1] == pytest.approx(1)
+    half = np.searchsorted(nodes, nodes[-1] / 2)
+    assert proved[half] > 0.4 * proved[-1]  # breadth first it would be nearly nothing
 
 
 @pytest.mark.parametrize(

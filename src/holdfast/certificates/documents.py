@@ -17,8 +17,8 @@ from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.exclusion import Exclusion
-from holdfast.certificates.search import PROVED, UNDECIDED, Tree
 from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 
 Document = dict[str, Any]
 

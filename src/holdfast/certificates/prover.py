@@ -14,12 +14,14 @@ from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.refutations import Refutation, refuted
-from holdfast.certificates.search import PROVED, UNDECIDED, Search
+from holdfast.certificates.search import Search
 from holdfast.certificates.taylor import Reach
+from holdfast.certificates.tree import PROVED, UNDECIDED
 from holdfast.errors import InputError
 from holdfast.notice import Progress, says
 
 _FINE = 10_000  # of which progress is told: ten thousandths of all parts
+_BEGIN = 4  # of the time limit, to begin with
 Stop = Callable[[], bool]
 
 
@@ -42,12 +44,12 @@ class _Part:
         finished: The smallest cells were reached.
     """
 
-    def __init__(self, claim: ReachClaim, halvings: int, seed: int) -> None:
+    def __init__(self, claim: ReachClaim, halvings: int, seed: int, until: float = np.inf) -> None:
         began = perf_counter()
         self.claim, self.closed, self.finished = claim, 0.0, False
         root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
-        self._search = Search(Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed)
-        cells = self._search.estimate()
+        self._search = Search(Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed, until)
+        cells = self._search.pool.estimate() if monotonic() < until else 0.0
         if verifier.MOST_LEAVES < cells < np.inf:
             raise InputError(
                 f"single configurations prove so little of this box that it would take some {cells:.0e} cells; "
@@ -129,15 +131,19 @@ def certify(
     end = np.inf if time_limit is None else monotonic() + time_limit
     if isinstance(claim, OutOfReachClaim):
         return refuted(claim, halvings, seed, end, stop, progress)
-    parts = [_Part(part, halvings, seed) for part in (claim.parts if isinstance(claim, TolerantClaim) else [claim])]
+    claims = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
+    ready, parts = monotonic() + (end - monotonic()) / _BEGIN, list[_Part]()
+    for left, part in zip(range(len(claims), 0, -1), claims, strict=True):
+        now = monotonic()
+        parts.append(_Part(part, halvings, seed, now + (ready - now) / left))
 
     def tell() -> None:
         if progress is not None:
             progress(int(_FINE * sum(part.closed for part in parts)), _FINE * len(parts))
 
     while (open_parts := [part for part in parts if not part.finished]) and monotonic() < end and not stop():
-        for left, part in zip(range(len(open_parts), 0, -1), open_parts, strict=True):
+        for left, open_part in zip(range(len(open_parts), 0, -1), open_parts, strict=True):
             now = monotonic()
-            part.run(now + (end - now) / left, stop, tell)
+            open_part.run(now + (end - now) / left, stop, tell)
     proofs = tuple(part.proof() for part in parts)
     return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]

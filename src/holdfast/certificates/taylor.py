@@ -226,6 +226,19 @@ class Reach:
         """(n,) m, by which a joint moves the tool at most where it alone turns, and more."""
         return self.kernels.lengths
 
+    @property
+    def redundant(self) -> bool:
+        """Whether joints may move while the tool does not."""
+        return bool(self.free.sum() > self.m)
+
+    def placed(self, q: Array, at: Array) -> Array:
+        """Configurations (N, n) with the locked joint where targets and locked angles (N, A) say."""
+        if self.locked < 0:
+            return q
+        q = q.copy()
+        q[:, self.locked] = at[:, -1]
+        return q
+
     def missed(self, q: Array, targets: Array) -> Array:
         """(N,) m from the tool at q (N, n) to targets (N, m)."""
         return np.asarray(np.linalg.norm(self.arm.forward_kinematics(q)[:, : self.m, 3] - targets, axis=1))

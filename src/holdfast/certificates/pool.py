@@ -1,0 +1,101 @@
+"""Configurations from which a search begins, all over its root box."""
+
+from __future__ import annotations
+
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.certificates.taylor import Form, Reach
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+_TARGETS, _AT_ONCE, _STARTS = 1000, 250, 12  # targets, so many of them at once, and random starts of each
+_STRIDE = 0.5  # along self-motions, rad
+_CLIMB, _TYPICAL = 10, 16  # such steps, to prove more of cells that are so many times smaller than the root
+_MET = 1e-9  # m
+
+
+def stepped(reach: Reach, q: Array, rng: np.random.Generator) -> Array:
+    """A random step along the self-motion from each q (N, n)."""
+    move = np.nan_to_num(reach.along(q, rng.normal(size=q.shape)))
+    size = rng.uniform(0, _STRIDE, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
+    return np.asarray(q + move * size[:, None])
+
+
+class Pool:
+    """Configurations of random targets and locked angles of a root box, moved to where they prove much.
+
+    Args:
+        reach: What must be reached.
+        root: (A, 2) targets along each axis, then the locked angle.
+        rng: Of all draws.
+        until: When to stop (``monotonic``), with what there is.
+
+    Attributes:
+        q: (N, n) rad.
+    """
+
+    def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
+        self._reach, self._rng, self._width = reach, rng, root[:, 1] - root[:, 0]
+        self._unit = np.where(self._width > 0, self._width, 1.0)
+        q, at = np.empty((0, reach.n)), np.empty((0, len(root)))
+        while len(at) < _TARGETS * _STARTS and monotonic() < until:
+            drawn = root[:, 0] + rng.random((_AT_ONCE, len(root))) * self._width
+            at = np.concatenate([at, np.repeat(drawn, _STARTS, axis=0)])
+            q = np.concatenate([q, self._solved(at[len(q) :])])
+        met = reach.missed(q, at[:, : reach.m]) < _MET
+        self.q, at = q[met], at[met]
+        self._at, self._count = at[:, : reach.m], 0
+        self._added: list[tuple[Array, Array]] = [(at / self._unit, self.q)]
+        self._climb(until)
+
+    def _solved(self, at: Array) -> Array:
+        low, high = np.clip(self._reach.limits.T, -np.pi, np.pi)
+        q = self._reach.placed(self._rng.uniform(low, high, (len(at), self._reach.n)), at)
+        return self._reach.solved(q, at[:, : self._reach.m], 40)
+
+    def _climb(self, until: float) -> None:
+        """In place: along self-motions to where configurations prove more."""
+        half, best = np.tile(self._width / _TYPICAL, (len(self.q), 1)), np.full(len(self.q), -1.0)
+        for k in range(1 + _CLIMB * self._reach.redundant):
+            if monotonic() > until:
+                break
+            q = self._reach.solved(stepped(self._reach, self.q, self._rng), self._at) if k else self.q
+            size = Form.at(self._reach, q, self._at).scale(half)
+            better = size > best
+            self.q[better], best[better] = q[better], size[better]
+
+    def add(self, centre: Array, q: Array) -> None:
+        """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""
+        self._added.append((centre / self._unit, q))
+
+    def near(self, centre: Array, count: int) -> Array:
+        """(N, count, n) the nearest configurations by target and locked angle of centres (N, A), fewer if there are fewer."""
+        if 2 * self._count < sum(len(q) for _, q in self._added):  # else the tree is made anew too often
+            from scipy.spatial import KDTree
+
+            at, self._all = (np.concatenate(x) for x in zip(*self._added, strict=True))
+            self._added, self._count, self._near = [(at, self._all)], len(at), KDTree(at)
+        count = min(count, self._count)
+        if not count:
+            return np.empty((len(centre), 0, self._reach.n))
+        nearest = np.asarray(self._near.query(centre / self._unit, k=np.arange(1, count + 1), p=np.inf)[1])
+        return np.asarray(self._all[nearest])
+
+    def estimate(self) -> float:
+        """Cells that the whole would take, from how much of it single configurations prove."""
+        if not len(self.q):
+            return float("inf")
+        some = self._rng.permutation(len(self.q))[:_TARGETS]
+        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024.
+        form, half = Form.at(self._reach, self.q[some], self._at[some]), self._width / 2
+        sizes = np.array([2.0**-k for k in range(11)])
+        best = np.full(len(some), sizes[-1] / 2)
+        for size in sizes[::-1]:
+            good, _ = form.proved(np.broadcast_to(half * size, (len(some), len(half))))
+            best = np.where(good, size, best)
+        axes = int((self._width > 0).sum())
+        return float(np.median(1 / best) ** axes)
