@@ -152,8 +152,8 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
         document = {"arm": documents._stored(arm), "limits": [["-0x1.8p+1", "0x1.8p+1"]] * 5, "locked": -1, "lemmas": []}
         leaves = verifier.Apart(document | {"target": {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3}})
         joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
-        tip, z, columns, lengths = leaves.moved(first, end, joints)
-        given = tip + verifier.Balls(-x), z, columns, lengths, half, wide
+        tip, z, places, lengths = leaves.moved(first, end, joints)
+        given = tip + verifier.Balls(-x), z, verifier.columns(tip, z, places), lengths, half, wide
         pairs.append((leaves.nearest(*given), leaves.farthest(*given)))
         for low, high in pairs:
             assert (low <= true.min(axis=0)).all()
@@ -263,7 +263,7 @@ def test_a_forged_witness_is_rejected(three, tmp_path):
 def test_what_makes_no_claim(panda, three, mixed5):
     with pytest.raises(InputError, match="slides"):
         out_of_reach_claim(mixed5, (0.5, 0, 0.5), 0.1)
-    with pytest.raises(InputError, match="that move in the xy plane"):
+    with pytest.raises(InputError, match="move in the xy plane"):
         out_of_reach_claim(panda, (0.5, 0.5), 0.1)
     with pytest.raises(InputError, match="lower one first"):
         out_of_reach_claim(three, (0.5, 0.5), 0.1, locked={0: (1, 0)})

@@ -1,8 +1,11 @@
+from holdfast.certificates.ceilings import Ceiling as Ceiling
 from holdfast.certificates.checks import CertificateCheck as CertificateCheck
 from holdfast.certificates.checks import check_certificate as check_certificate
+from holdfast.certificates.claims import CeilingClaim as CeilingClaim
 from holdfast.certificates.claims import OutOfReachClaim as OutOfReachClaim
 from holdfast.certificates.claims import ReachClaim as ReachClaim
 from holdfast.certificates.claims import TolerantClaim as TolerantClaim
+from holdfast.certificates.claims import ceiling_claim as ceiling_claim
 from holdfast.certificates.claims import out_of_reach_claim as out_of_reach_claim
 from holdfast.certificates.claims import reach_claim as reach_claim
 from holdfast.certificates.claims import tolerant_claim as tolerant_claim
