@@ -11,8 +11,8 @@ import written
 import holdfast as hf
 import oracles
 from holdfast.certificates import ceiling_claim, documents, verifier
+from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.taylor import Chain
-from holdfast.certificates.wrenches import Ceiling
 from holdfast.errors import InputError, TaskError
 
 pytest.importorskip("flint", reason="python-flint is not installed")

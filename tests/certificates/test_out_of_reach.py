@@ -11,8 +11,9 @@ import written
 
 import holdfast as hf
 import oracles
-from holdfast.certificates import documents, exclusion, out_of_reach_claim, verifier
-from holdfast.certificates.segments import Segment
+from holdfast.certificates import documents, out_of_reach_claim, verifier
+from holdfast.certificates.joint_boxes import exclusion
+from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain
 from holdfast.errors import InputError
 

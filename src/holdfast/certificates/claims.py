@@ -243,8 +243,8 @@ def ceiling_claim(
     arm: Arm,
     joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
     threshold: float,
-    failures: FailureSpec = "single",
     *,
+    failures: FailureSpec = "single",
     task: str = "pose",
 ) -> CeilingClaim:
     """The claim that nowhere in a box of configurations relative manipulability is above a threshold.
@@ -260,7 +260,7 @@ def ceiling_claim(
     Raises:
         InputError: A box or threshold that makes no claim, a threshold that no configuration exceeds, another task, or an arm
             with slides.
-        TaskError: An arm without redundancy, failures that are none, or of several joints at once.
+        TaskError: An arm without redundancy, no failures, or failures of several joints at once.
 
     Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
     """

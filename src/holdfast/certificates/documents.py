@@ -16,8 +16,8 @@ from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ROWS, CeilingClaim, OutOfReachClaim, ReachClaim, TolerantClaim
-from holdfast.certificates.exclusion import Exclusion
-from holdfast.certificates.halving import Halving
+from holdfast.certificates.joint_boxes.exclusion import Exclusion
+from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 

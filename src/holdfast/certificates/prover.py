@@ -11,10 +11,10 @@ import numpy as np
 
 from holdfast.arguments import checked
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.ceilings import Ceiling, bounded
 from holdfast.certificates.claims import ROWS, CeilingClaim, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.joint_boxes.ceilings import Ceiling, bounded
+from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
 from holdfast.certificates.proof import Proof, TolerantProof
-from holdfast.certificates.refutations import Refutation, refuted
 from holdfast.certificates.search import Search
 from holdfast.certificates.taylor import Reach
 from holdfast.certificates.tree import PROVED, UNDECIDED

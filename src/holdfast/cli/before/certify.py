@@ -234,7 +234,7 @@ def ceiling(
         model,
         box | _intervals(model, "--limit", limit or [], degrees),
         below,
-        read_failures(model, failures),
+        failures=read_failures(model, failures),
         task=task,
     )
     _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from holdfast.certificates.ceilings import Ceiling
 from holdfast.certificates.checks import CertificateCheck
+from holdfast.certificates.joint_boxes.ceilings import Ceiling
+from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
-from holdfast.certificates.refutations import Refutation
 from holdfast.certificates.verifier import per_cent
 from holdfast.present.printing import Rows
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.halving import OPEN, Index
-from holdfast.certificates.segments import Segment
+from holdfast.certificates.joint_boxes.halving import OPEN, Index
+from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain
 
 Array = NDArray[np.float64]

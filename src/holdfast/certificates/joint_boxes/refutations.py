@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.exclusion import exclude
+from holdfast.certificates.joint_boxes.exclusion import exclude
 from holdfast.certificates.proof import early, written
 from holdfast.notice import Progress
 from holdfast.result import Result

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import CeilingClaim
-from holdfast.certificates.halving import Halving
+from holdfast.certificates.joint_boxes.halving import Halving
+from holdfast.certificates.joint_boxes.refutations import Halved
+from holdfast.certificates.joint_boxes.wrenches import Ceiling as Test
 from holdfast.certificates.proof import early
-from holdfast.certificates.refutations import Halved
 from holdfast.certificates.taylor import Chain
-from holdfast.certificates.wrenches import Ceiling as Test
 from holdfast.indices import relative_manipulability
 from holdfast.notice import Progress
 
