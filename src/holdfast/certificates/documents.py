@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.exclusion import Exclusion
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
@@ -102,12 +102,17 @@ def _common(kind: str, claim: ReachClaim | TolerantClaim | OutOfReachClaim, seco
         "arm": _stored(claim.arm),
         "source": {"name": claim.arm.name},
         "task": claim.task,
-        "target": {"axes": "xyz"[: ROWS[claim.task]], "box": _hexes(claim.box), "orientation": None},
+        "target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)},
         "made_by": f"holdfast {__version__}",
         "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
         "seconds": seconds,
         "nodes": nodes,
     }
+
+
+def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
+    rotation = None if isinstance(claim, OutOfReachClaim) else claim.rotation
+    return None if rotation is None else [x for row in _hexes(rotation) for x in row]
 
 
 def _signed(document: Document) -> Document:

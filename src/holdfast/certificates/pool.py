@@ -15,7 +15,7 @@ Index = NDArray[np.int64]
 _TARGETS, _AT_ONCE, _STARTS = 1000, 250, 12  # targets, so many of them at once, and random starts of each
 _STRIDE = 0.5  # along self-motions, rad
 _CLIMB, _TYPICAL = 10, 16  # such steps, to prove more of cells that are so many times smaller than the root
-_MET = 1e-9  # m
+_MET = 1e-9  # m and rad
 
 
 def stepped(reach: Reach, q: Array, rng: np.random.Generator) -> Array:
@@ -46,16 +46,16 @@ class Pool:
             drawn = root[:, 0] + rng.random((_AT_ONCE, len(root))) * self._width
             at = np.concatenate([at, np.repeat(drawn, _STARTS, axis=0)])
             q = np.concatenate([q, self._solved(at[len(q) :])])
-        met = reach.missed(q, at[:, : reach.m]) < _MET
+        met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
         self.q, at = q[met], at[met]
-        self._at, self._count = at[:, : reach.m], 0
+        self._at, self._count = at[:, : reach.axes], 0
         self._added: list[tuple[Array, Array]] = [(at / self._unit, self.q)]
         self._climb(until)
 
     def _solved(self, at: Array) -> Array:
         low, high = np.clip(self._reach.limits.T, -np.pi, np.pi)
         q = self._reach.placed(self._rng.uniform(low, high, (len(at), self._reach.n)), at)
-        return self._reach.solved(q, at[:, : self._reach.m], 40)
+        return self._reach.solved(q, at[:, : self._reach.axes], 40)
 
     def _climb(self, until: float) -> None:
         """In place: along self-motions to where configurations prove more."""
@@ -90,12 +90,12 @@ class Pool:
         if not len(self.q):
             return float("inf")
         some = self._rng.permutation(len(self.q))[:_TARGETS]
-        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024.
-        form, half = Form.at(self._reach, self.q[some], self._at[some]), self._width / 2
-        sizes = np.array([2.0**-k for k in range(11)])
-        best = np.full(len(some), sizes[-1] / 2)
-        for size in sizes[::-1]:
-            good, _ = form.proved(np.broadcast_to(half * size, (len(some), len(half))))
-            best = np.where(good, size, best)
+        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024, then a little more.
+        form, half = Form.at(self._reach, self.q[some], self._at[some]), np.tile(self._width / 2, (len(some), 1))
+        best = np.full(len(some), 2.0**-11)
+        for size in 2.0 ** np.arange(-10, 1):
+            best = np.where(form.proved(half * size)[0], size, best)
+        for factor in (np.sqrt(2), 2**0.25):
+            best = np.where(form.proved(half * (best * factor)[:, None])[0], best * factor, best)
         axes = int((self._width > 0).sum())
         return float(np.median(1 / best) ** axes)
