@@ -12,9 +12,10 @@ from holdfast.certificates.taylor import Form, Reach
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-_TARGETS, _AT_ONCE, _STARTS = 1000, 250, 12  # targets, so many of them at once, and random starts of each
+_TARGETS, _AT_ONCE, _STARTS = 250, 50, 12  # targets, so many of them at once, and random starts of each
 _STRIDE = 0.5  # along self-motions, rad
 _CLIMB, _TYPICAL = 10, 16  # such steps, to prove more of cells that are so many times smaller than the root
+_ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
 _MET = 1e-9  # m and rad
 
 
@@ -86,16 +87,16 @@ class Pool:
         return np.asarray(self._all[nearest])
 
     def estimate(self) -> float:
-        """Cells that the whole would take, from how much of it single configurations prove."""
+        """Cells that the whole would take: the median over some of these of 2 to the halvings until one proves its cell."""
         if not len(self.q):
             return float("inf")
-        some = self._rng.permutation(len(self.q))[:_TARGETS]
-        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024, then a little more.
+        some = self._rng.permutation(len(self.q))[:_ASKED]
         form, half = Form.at(self._reach, self.q[some], self._at[some]), np.tile(self._width / 2, (len(some), 1))
-        best = np.full(len(some), 2.0**-11)
-        for size in 2.0 ** np.arange(-10, 1):
-            best = np.where(form.proved(half * size)[0], size, best)
-        for factor in (np.sqrt(2), 2**0.25):
-            best = np.where(form.proved(half * (best * factor)[:, None])[0], best * factor, best)
-        axes = int((self._width > 0).sum())
-        return float(np.median(1 / best) ** axes)
+        halvings, may = np.zeros(len(some)), np.broadcast_to(self._width > 0, half.shape)
+        for _ in range(_ENOUGH):
+            left = np.flatnonzero(~form.proved(half)[0])
+            if not left.size:
+                break
+            halvings[left] += 1
+            half[left, form.take(left).worst_axis(half[left], may[left])] /= 2
+        return float(2 ** np.median(halvings))

@@ -21,7 +21,6 @@ Tell = Callable[[float], None]
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _STEPS = 6  # along self-motions
 _AT_ONCE = 512
-_LOST = 1e6  # m: the error where the arm is singular
 _LEAST_TURN = 1e-3  # rad: a tool turned away by less may come to its target
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
 _LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
@@ -120,7 +119,8 @@ class Search:
         some = np.flatnonzero(~found & ~smallest & ~lost)
         rest = cells.take(some)
         rest.q, rest.barren = q[some], barren[some]
-        axis = self._worst_axis(rest.q, centre[some], half[some], rest.depth)
+        form = Form.at(self.reach, rest.q, centre[some, : self.reach.axes])
+        axis = form.worst_axis(half[some], (rest.depth < self.halvings) & (self.width > 0))
         self._push(self.tree.halved(rest, axis), np.repeat(part[some], 2))
 
     def _from_pool(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
@@ -168,18 +168,3 @@ class Search:
 
     def _rounded(self, q: Array, centre: Array) -> Array:
         return self.reach.placed(np.round(q / UNIT) * UNIT, centre)
-
-    def _worst_axis(self, q: Array, centre: Array, half: Array, depth: Index) -> Index:
-        """The axis of each cell (N,) whose halving leaves least error and least beyond the limits."""
-        form = Form.at(self.reach, q, centre[:, : self.reach.axes])
-        low, high = self.reach.limits.T
-        price = np.full(half.shape, np.inf)
-        for axis in np.flatnonzero(self.width > 0):
-            narrow = half.copy()
-            narrow[:, axis] /= 2
-            above, below, _ = form.sides(narrow, np.zeros((len(q), self.reach.m)))
-            e = np.nan_to_num(np.maximum(above, below), nan=_LOST)
-            _, _, far = form.sides(narrow, np.maximum(e, 0))
-            beyond = np.maximum(np.maximum(low - (q - far), q + far - high), 0) * self.reach.free
-            price[:, axis] = np.where(depth[:, axis] < self.halvings, e.sum(axis=1) + beyond.sum(axis=1), np.inf)
-        return np.asarray(np.where(np.isfinite(price).any(axis=1), price.argmin(axis=1), 0), dtype=np.int64)

@@ -18,10 +18,12 @@ from holdfast.certificates.expansions import Expansion
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Index = NDArray[np.int64]
 
 UNIT = 2.0**-24  # rad: centres are written in multiples of it
 _ROUNDS = 30  # of the section box, each a little wider than what the one before needs
 _HALVINGS = 4
+_LOST = 1e6  # m: the error where the arm is singular
 _NEVER = 1e6  # rad, for a limit that is not there
 
 
@@ -177,3 +179,17 @@ class Form:
             good, _ = self.proved(cells * middle[:, None])
             low, high = np.where(good, middle, low), np.where(good, high, middle)
         return low
+
+    def worst_axis(self, cells: Array, may: Flags) -> Index:
+        """(N,) the axis among those that may (N, c) whose halving leaves least error and least beyond the limits."""
+        reach, (low, high) = self.reach, self.reach.limits.T
+        price = np.full(cells.shape, np.inf)
+        for axis in np.flatnonzero(may.any(axis=0)):
+            narrow = cells.copy()
+            narrow[:, axis] /= 2
+            above, below, _ = self.sides(narrow, np.zeros((len(cells), reach.m)))
+            e = np.nan_to_num(np.maximum(above, below), nan=_LOST)
+            _, _, far = self.sides(narrow, np.maximum(e, 0))
+            beyond = np.maximum(np.maximum(low - (self.q - far), self.q + far - high), 0) * reach.free
+            price[:, axis] = np.where(may[:, axis], e.sum(axis=1) + beyond.sum(axis=1), np.inf)
+        return np.asarray(np.where(np.isfinite(price).any(axis=1), price.argmin(axis=1), 0), dtype=np.int64)
