@@ -194,6 +194,7 @@ _CLASSES = (
         "Objective",
         "Parameter",
         "Places",
+        "CeilingClaim",
         "OutOfReachClaim",
         "ReachClaim",
         "Region",

@@ -443,7 +443,7 @@ def test_a_changed_claim_that_the_leaves_prove_is_accepted_and_true(locked, tmp_
         (_put(["version"], 2), "version must be a whole number from 1 to 1"),
         (_put(["version"], True), "version"),
         (_put(["format"], "else"), "format"),
-        (_put(["kind"], "ceiling"), "kind"),
+        (_put(["kind"], "miracle"), "kind"),
         (_put(["claim"], "every target is reached"), "claim is not what the rest"),
         (_put(["digest"], "0" * 64), "digest is not what the rest"),
         (_put(["arm_digest"], "0" * 64), "arm_digest is not what the rest"),

@@ -86,3 +86,25 @@ def test_poses(cli, tmp_path):
     assert code == 2
     assert "--rotation" in err
     assert cli(*words, "--rotation", "180 0")[0] == 2
+
+
+def test_a_ceiling(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "ceiling", "panda", "--around", "-35 -45 51 -111 -46 84 -3", "--degrees", "--out", str(file)]
+    code, out, _ = cli(*words, "--within", "3", "--below", "0.07", "--json")
+    assert code == 0
+    assert json.loads(out)["rejected"] == 0
+    assert "is at most 0.07; angles in rad" in cli("certificate", "show", str(file))[1]
+    code, out, _ = cli(*words, "--within", "3", "--below", "0.06")
+    assert code == 4
+    assert "Refuted: 0.06" in out
+    assert cli("certificate", "check", str(file))[0] == 0
+    code, _, err = cli(*words, "--within", "3 4", "--below", "0.06")
+    assert code == 2
+    assert "--within one or 7" in err
+    assert cli(*words, "--below", "0.06")[0] == 2
+    code, out, _ = cli(
+        *words, "--within", "5", "--limit", "2=-50..-40", "--below", "0.07", "--halvings", "0", "--no-check", "--json"
+    )
+    assert code == 3
+    assert len(json.loads(out)["best"]) == 7

@@ -57,6 +57,13 @@ def found(function, *args, **options):
     return cache(lambda: function(*args, **options))
 
 
+FOUR = [[-1, 1], [0.3, 0.4], [0.3, 0.4], [-1, 1]]
+
+
+def four():
+    return hf.Arm.from_dh([hf.DH(1.0, 0.0, 0.0)] * 4, name="planar-4r")
+
+
 @cache
 def proof():
     return hf.certify(hf.certificates.reach_claim(arm(), (1.5, 0.5), 0.1), halvings=1)
@@ -70,6 +77,7 @@ MADE = {
     "Arm": arm,
     "Assessment": lambda: assessed(),
     "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
+    "Ceiling": found(lambda: hf.certify(hf.certificates.ceiling_claim(four(), FOUR, 0.4, task="planar-pose"))),
     "CellCheck": found(lambda: hf.check_cell(hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), arm())),
     "CertificateCheck": lambda: hf.check_certificate(proof().write(Path(mkdtemp()) / "a.certificate")),
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
@@ -107,7 +115,7 @@ MADE = {
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
 WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "TolerantProof"}
-WITHOUT_FIGURE |= {"Refutation", "WaypointCheck"}
+WITHOUT_FIGURE |= {"Ceiling", "Refutation", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

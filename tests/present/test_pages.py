@@ -25,6 +25,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 PARTS = {
+    "Ceiling",
     "CertificateCheck",
     "Configurations",
     "Proof",

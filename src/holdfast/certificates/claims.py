@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.failures.sets import FailureSpec, single_joints
+from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 
 Array = NDArray[np.float64]
 
 ROWS = {"planar": 2, "position": 3, "pose": 6}
 _TASKS = {2: "planar", 3: "position"}  # by coordinates of a target
 _SKEWED = 1e-6  # of a rotation: so much is mended
+_SIX = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,9 +191,7 @@ def _box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
     edges = np.broadcast_to(np.asarray(size, dtype=np.float64), middle.shape) if np.size(size) in (1, len(middle)) else None
     if edges is None or not np.isfinite(edges).all() or (edges < 0).any() or not (edges > 0).any():
         raise InputError(f"the size of the box must be one number or {len(middle)}, m, finite, not negative, not all 0")
-    if arm.prismatic.any():
-        slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
-        raise InputError(f"{slides[0]} slides; certificates are for arms whose joints all turn")
+    _need_turning(arm)
     return np.column_stack([middle - edges / 2, middle + edges / 2])
 
 
@@ -251,7 +250,90 @@ def out_of_reach_claim(
     """
     same = reach_claim(arm, centre, size, locked=locked, limits=limits)
     if same.task == "planar":
-        turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
-        if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):
-            raise InputError("two coordinates are for arms that move in the xy plane; give the box of this one with three")
+        _need_flat(arm, "a box of two coordinates is")
     return OutOfReachClaim(arm=arm, task=same.task, box=same.box, locked=same.locked, angle=same.angle, limits=same.limits)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CeilingClaim:
+    """For every configuration of a box, the least relative manipulability after one of some locks is at most a threshold.
+
+    Attributes:
+        arm: The arm, all of whose joints turn.
+        task: ``pose``, or ``planar-pose``.
+        joint_box: (n, 2) rad.
+        threshold: Between 0 and 1.
+        locks: Indices of the joints that may lock, one at a time, in order.
+    """
+
+    arm: Arm
+    task: str
+    joint_box: Array
+    threshold: float
+    locks: tuple[int, ...]
+
+
+@checked
+def ceiling_claim(
+    arm: Arm,
+    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
+    threshold: float,
+    *,
+    failures: FailureSpec = "single",
+    task: str = "pose",
+) -> CeilingClaim:
+    """The claim that nowhere in a box of configurations relative manipulability is above a threshold.
+
+    Args:
+        arm: The arm; all of its joints must turn.
+        joint_box: (n, 2) rad, lowest and highest value of each joint; or ``{joint: (low, high)}``, of a joint that is not named
+            its limits.
+        threshold: Between 0 and 1.
+        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
+        task: ``pose``; ``planar-pose`` for an arm that moves in a plane.
+
+    Raises:
+        InputError: A box or threshold that makes no claim, a threshold that no configuration exceeds, another task, or an arm
+            with slides.
+        TaskError: An arm without redundancy, no failures, or failures of several joints at once.
+
+    Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
+    """
+    if task not in _SIX:
+        raise InputError(f"task is '{task}'; ceilings are for {' and '.join(_SIX)}, whose rows are all of the motion")
+    _need_turning(arm)
+    locks = tuple(sorted(single_joints(arm, failures)))
+    require_redundant(arm, _SIX[task], task, tuple((k,) for k in locks))
+    if task == "planar-pose":
+        _need_flat(arm, "task planar-pose is")
+    if isinstance(joint_box, Mapping):
+        box = np.column_stack([arm.lower, arm.upper])
+        for joint, pair in joint_box.items():
+            box[arm.joint_index(joint)] = _within(arm, joint, pair)
+    else:
+        pairs = np.asarray(joint_box, dtype=np.float64)
+        if pairs.shape != (arm.n, 2):
+            raise InputError(f"the box must be two angles for each of {arm.n} joints, rad, not an array of {pairs.shape}")
+        box = np.array([_within(arm, k, pair) for k, pair in enumerate(pairs)])
+    if not np.isfinite(box).all():
+        k = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
+        raise InputError(f"{arm.joint_names[k]} has no limits; give its range")
+    # The squares of all relative manipulabilities sum to n - m, so the least of some is at most their mean.
+    most = float(np.sqrt(min(1.0, (arm.n - _SIX[task]) / len(locks))))
+    if not 1e-6 <= threshold < 1:
+        raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
+    if threshold >= most:
+        raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: nothing to prove")
+    return CeilingClaim(arm=arm, task=task, joint_box=box, threshold=float(threshold), locks=locks)
+
+
+def _need_flat(arm: Arm, what: str) -> None:
+    turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
+    if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):
+        raise InputError(f"{what} for arms that move in the xy plane, and this one leaves it")
+
+
+def _need_turning(arm: Arm) -> None:
+    if arm.prismatic.any():
+        slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
+        raise InputError(f"{slides[0]} slides; certificates are for arms whose joints all turn")

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
-from holdfast.certificates.exclusion import Exclusion
+from holdfast.certificates.claims import CeilingClaim, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.joint_boxes.exclusion import Exclusion
+from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 
@@ -63,7 +64,6 @@ def bundle(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: S
 
 def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> Document:
     """The certificate of an exclusion, or of a witness that says the opposite."""
-    parts = {"proved": 1 - found.undecided, "refuted": Fraction(0), "undecided": found.undecided}
     lemmas = [
         {
             "link": lemma.link,
@@ -83,9 +83,30 @@ def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> D
             "tree": _packed(found.tree),
             "lemmas": lemmas,
             "witness": None if found.witness is None else _hexes(found.witness),
-            "volumes": {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()},
+            "volumes": _volumes(found.undecided),
         }
     )
+
+
+def ceiling(claim: CeilingClaim, tree: Halving, best: NDArray[np.float64], *, seconds: float) -> Document:
+    """The certificate of a ceiling, with the best configuration that was found."""
+    common = _common("ceiling", claim, seconds, tree.tested)
+    return _signed(
+        common
+        | {
+            "joint_box": _hexes(claim.joint_box),
+            "threshold": _hexes(claim.threshold),
+            "locks": list(claim.locks),
+            "tree": _packed(tree.in_order()),
+            "best": _hexes(best),
+            "volumes": _volumes(tree.undecided),
+        }
+    )
+
+
+def _volumes(undecided: Fraction) -> Document:
+    parts = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
+    return {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()}
 
 
 def undecided(document: Document) -> list[verifier.Cell]:
@@ -94,20 +115,24 @@ def undecided(document: Document) -> list[verifier.Cell]:
     return [cell for token, cell in verifier.cells(tokens, len(box) + (document["angle"] is not None)) if token != PROVED]
 
 
-def _common(kind: str, claim: ReachClaim | TolerantClaim | OutOfReachClaim, seconds: float, nodes: int) -> Document:
-    return {
+def _common(
+    kind: str, claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim, seconds: float, nodes: int
+) -> Document:
+    made = {
         "format": "holdfast-certificate",
         "version": 1,
         "kind": kind,
         "arm": _stored(claim.arm),
         "source": {"name": claim.arm.name},
         "task": claim.task,
-        "target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)},
         "made_by": f"holdfast {__version__}",
         "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
         "seconds": seconds,
         "nodes": nodes,
     }
+    if isinstance(claim, CeilingClaim):
+        return made
+    return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
 
 
 def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:

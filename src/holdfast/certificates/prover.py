@@ -11,9 +11,10 @@ import numpy as np
 
 from holdfast.arguments import checked
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.claims import ROWS, CeilingClaim, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.joint_boxes.ceilings import Ceiling, bounded
+from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
 from holdfast.certificates.proof import Proof, TolerantProof
-from holdfast.certificates.refutations import Refutation, refuted
 from holdfast.certificates.search import Search
 from holdfast.certificates.taylor import Reach
 from holdfast.certificates.tree import PROVED, UNDECIDED
@@ -89,26 +90,29 @@ def certify(claim: ReachClaim, **how: Unpack[How]) -> Proof: ...
 def certify(claim: TolerantClaim, **how: Unpack[How]) -> TolerantProof: ...
 @overload
 def certify(claim: OutOfReachClaim, **how: Unpack[How]) -> Refutation: ...
+@overload
+def certify(claim: CeilingClaim, **how: Unpack[How]) -> Ceiling: ...
 @checked
 @says("searching for a proof")
 def certify(
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim,
     *,
     halvings: int | None = None,
     time_limit: float | None = None,
     seed: int = 0,
     progress: Progress | None = None,
     stop: Stop = lambda: False,
-) -> Proof | TolerantProof | Refutation:
+) -> Proof | TolerantProof | Refutation | Ceiling:
     """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
 
     That nothing of a box is reached is proved by halving the box of configurations with that of the targets, until distances
-    tell each of them apart; or refuted by a configuration that is found in it.
+    tell each of them apart; or refuted by a configuration that is found in it. A ceiling of relative manipulability is proved
+    by a wrench for each part of the box of configurations.
 
     Args:
-        claim: From :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim` or
-            :func:`holdfast.certificates.out_of_reach_claim`.
-        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, out of reach 16.
+        claim: From :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
+            :func:`holdfast.certificates.out_of_reach_claim` or :func:`holdfast.certificates.ceiling_claim`.
+        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16.
         time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
             one does not need the others get. Without it the same seed gives the same certificate.
         seed: Of all random draws.
@@ -117,14 +121,15 @@ def certify(
 
     Returns:
         A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
-        what is out of reach a :class:`holdfast.certificates.Refutation`; found by the prover and not yet verified. Its file is
+        what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling a
+        :class:`holdfast.certificates.Ceiling`; found by the prover and not yet verified. Its file is
         checked by :func:`check_certificate`, or without holdfast; see the explanation of certificates.
 
     Raises:
         InputError: A number out of range, or a box that would take more than 2^24 cells.
     """
     if halvings is None:
-        halvings = 16 if isinstance(claim, OutOfReachClaim) else 8
+        halvings = 16 if isinstance(claim, OutOfReachClaim | CeilingClaim) else 8
     if not 0 <= halvings <= 20:
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
@@ -132,6 +137,8 @@ def certify(
     end = np.inf if time_limit is None else monotonic() + time_limit
     if isinstance(claim, OutOfReachClaim):
         return refuted(claim, halvings, seed, end, stop, progress)
+    if isinstance(claim, CeilingClaim):
+        return bounded(claim, halvings, seed, end, stop, progress)
     claims = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
     ready, parts = monotonic() + (end - monotonic()) / _BEGIN, list[_Part]()
     for left, part in zip(range(len(claims), 0, -1), claims, strict=True):

@@ -8,6 +8,10 @@ some s has g = 0: a configuration that reaches the target. Any matrix D may span
 A refutation is a tree over joints and targets. In each leaf a point of some link is farther from the target than the tool
 can be from this point, or nearer. How far that is, is a lemma, with a tree of its own over the joints behind the link.
 Distances are bounded by exact derivatives at the centre, in arrays of balls, and a bound for the third.
+
+A ceiling of relative manipulability is a tree over joints. With the moments a_l of any wrench about the axes, it is at most
+sqrt(A / (A + a_k^2)) after a lock of joint k, A the sum of the other a_l^2. In each leaf a wrench that is affine in the joints
+shows this, and one k. As its axes are seen from a link in the middle of the arm, first and last joint count nothing.
 """
 
 from __future__ import annotations
@@ -46,15 +50,17 @@ Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k
 
 MOST_BYTES, MOST_LEAVES, MOST_DEPTH, MOST_JOINTS, CHUNK = 256 << 20, 1 << 24, 200, 64, 256
 UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
+LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
 LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere
 UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
+SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [0, 1, 5]}  # rows of a ceiling
 ROWS = {"planar xy": 2, "position xyz": 3, "pose xyz": 6, "pose xyzRPY": 6}  # by task and axes of the target
 NUMBER, TEXT, HASH = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
 LIMITS, FRAME = [f"{NUMBER}|-?inf", 2], {"rotation": [NUMBER, 9], "origin": [NUMBER, 3]}
 ARM = {"joints": [{"name": TEXT, "type": "revolute|prismatic", "limits": LIMITS, **FRAME}, ...], "tool": FRAME}
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
 VOLUMES = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-KINDS = "reach|bundle|refutation"
+KINDS = "reach|bundle|refutation|ceiling"
 COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KINDS, "arm": ARM}
 COMMON |= {"arm_digest": HASH, "source": ..., "claim": TEXT, "task": TEXT, "volumes": VOLUMES, "digest": HASH, **FOR_PEOPLE}
 real = float.fromhex
@@ -107,7 +113,13 @@ def sentence(document: dict[str, Any]) -> str:
     def spans(names: Iterable[str], pairs: Iterable[list[str]]) -> str:
         return ", ".join(f"{name} {' to '.join(repr(real(x)) for x in pair)}" for name, pair in zip(names, pairs, strict=True))
 
-    names, target = [joint["name"] for joint in document["arm"]["joints"]], document["target"]
+    names = [joint["name"] for joint in document["arm"]["joints"]]
+    if document["kind"] == "ceiling":
+        least = f"the least relative manipulability of the {document['task']} after a lock of one of "
+        least += f"{', '.join(names[k] for k in document['locks'])} is at most {real(document['threshold'])!r}"
+        text = f"For every configuration with {spans(names, document['joint_box'])}, {least}"
+        return f"{text}; angles in rad, arm {document['arm_digest'][:12]}."
+    target = document["target"]
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw"}.get(axis, axis) for axis in target["axes"]]
     turned = f" and the rotation {[real(x) for x in target['orientation']]}" if target["orientation"] else ""
     turned += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
@@ -155,10 +167,28 @@ def _check(document: dict[str, Any]) -> None:
         _fit(document.get(key), COMMON[key], key)
     joints, locks, target = document["arm"]["joints"], document.get("locks"), document.get("target")
     n, axes, names = len(joints), str(target.get("axes") if isinstance(target, dict) else ""), [one["name"] for one in joints]
-    rows = ROWS.get(f"{document['task']} {axes}")
-    need(rows, f"task and axes of the target must be one of: {', '.join(ROWS)}")
     need(1 <= n <= MOST_JOINTS and len(set(names)) == n, f"there must be 1 to {MOST_JOINTS} joints of different names")
     need(all(x.isprintable() and x and len(x) <= 200 for x in names), "joints must have names of 1 to 200 letters to print")
+    turning = all(joint["type"] == "revolute" for joint in joints)
+    if document["kind"] == "ceiling":
+        need(turning and document["task"] in SIX, f"ceilings are of joints that turn, and of {' and '.join(SIX)}")
+        _fit(document, {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "locks": [range(n), ...], "tree": TEXT,
+                        "best": [NUMBER, n], **COMMON}, "the certificate")  # fmt: skip
+        _within(document["joint_box"], [joint["limits"] for joint in joints], "joint_box")
+        need(1e-6 <= real(document["threshold"]) < 1, "threshold must be from 1e-6 to 1")
+    else:
+        _check_targets(document, joints, target, locks, axes, turning)
+    need(
+        document["kind"] in ("reach", "refutation") or (locks and locks == sorted(set(locks))),
+        "locks must be in order, each once",
+    )
+    for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
+        need(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
+
+
+def _check_targets(document: dict[str, Any], joints: list[Any], target: Any, locks: Any, axes: str, turning: bool) -> None:
+    n, rows = len(joints), ROWS.get(f"{document['task']} {axes}")
+    need(rows, f"task and axes of the target must be one of: {', '.join(ROWS)}")
     turned: Any = [NUMBER, 9] if rows == 6 and axes == "xyz" else None
     form = {"target": {"axes": axes, "box": [[NUMBER, 2], len(axes)], "orientation": turned}, "limits": [LIMITS, n], **COMMON}
     if document["kind"] == "bundle":
@@ -170,8 +200,7 @@ def _check(document: dict[str, Any]) -> None:
     if document["kind"] == "reach":
         form |= {"centres": TEXT, "unit": re.escape(UNIT.hex()), "refutations": [..., 0]}
     if document["kind"] == "refutation":
-        good = rows != 6 and all(joint["type"] == "revolute" for joint in joints)
-        need(good, "refutations are of positions, and of joints that turn")
+        need(rows != 6 and turning, "refutations are of positions, and of joints that turn")
         lemma = {"link": range(n), "point": [NUMBER, 3], "least": NUMBER, "most": NUMBER, "tree": TEXT}
         form |= {"lemmas": [lemma, ...], "witness": [NUMBER, n] if document.get("witness") else None}
     _fit(document, form, "the certificate")
@@ -181,9 +210,6 @@ def _check(document: dict[str, Any]) -> None:
     _within(document.get("working_ranges", limits), limits, "working_ranges")
     if document.get("angle"):
         _within([document["angle"]], [limits[document["locked"]]], "angle")
-    need(document["kind"] != "bundle" or (locks and locks == sorted(set(locks))), "locks must be in order, each once")
-    for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
-        need(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
 
 
 def unpacked(text: str, most: int, what: str) -> bytes:
@@ -197,13 +223,13 @@ def unpacked(text: str, most: int, what: str) -> bytes:
     return data
 
 
-def cells(tree: bytes, axes: int, last: int = 2) -> Iterator[tuple[int, Cell]]:
-    """Token and cell of each leaf, in the order of the tree; tokens up to the last are those of leaves."""
+def cells(tree: bytes, axes: int, last: int = 2, locks: int = 256) -> Iterator[tuple[int, Cell]]:
+    """Token and cell of each leaf, in the order of the tree; tokens up to the last are those of leaves, and from ``locks``."""
     waiting: list[Cell] = [((0, 0),) * axes]
     for token in tree:
         need(waiting, "the tree goes on behind its end")
         cell, axis = waiting.pop(), token - SPLIT
-        if token <= last:
+        if token <= last or token >= locks:
             yield token, cell
             continue
         good = 0 <= axis < axes and sum(d for _, d in cell) < MOST_DEPTH
@@ -448,6 +474,11 @@ def crossed(a: Balls) -> Balls:
     return Balls(*made)
 
 
+def length(x: Array, axis: int = 1) -> Array:
+    """Above the lengths of vectors."""
+    return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
+
+
 def stacked(parts: list[Balls], axis: int) -> Balls:
     """Along a new axis."""
     return Balls(np.stack([x.at for x in parts], axis), np.stack([x.off for x in parts], axis))
@@ -460,36 +491,21 @@ def bent(slope: Array, second: Balls, half: Array) -> Array:
     return np.asarray((most.sum(axis=1) + np.einsum("nj,njk,nk->n", half, pairs, half)) * UP + LEAST)
 
 
-class Apart:
-    """The leaves of a refutation: the tool is not where the target is."""
+class Boxes:
+    """Boxes of joints, and of targets behind them."""
 
-    def __init__(self, document: dict[str, Any]) -> None:
-        self._given = document | {"tree": ""}
-        joints, limits, locked = document["arm"]["joints"], list(document["limits"]), document["locked"]
-        if locked >= 0:
-            limits[locked] = document["angle"]
-        self.n, self.rows = len(joints), len(document["target"]["axes"])
-        full, ends = math.nextafter(math.pi, 4), [[real(x) for x in pair] for pair in limits]
-        ends = [[low, high] if high - low < 2 * math.pi else [-full, full] for low, high in ends]
-        ends += [[real(x) for x in pair] for pair in document["target"]["box"]]
+    def __init__(self, arm: dict[str, Any], ends: list[list[float]], flat: bool) -> None:
+        frames, self.n = [*arm["joints"], arm["tool"]], len(arm["joints"])
         self.low, self.width = [Fraction(low) for low, _ in ends], [Fraction(high) - Fraction(low) for low, high in ends]
-        frames = [*joints, document["arm"]["tool"]]
         self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
         self.turns = [Balls([real(x) for x in frame["rotation"]], _defect(frame["rotation"])) for frame in frames]
         self.turns = [Balls(turn.at.reshape(3, 3), turn.off.reshape(3, 3)) for turn in self.turns]
-        self.points = [np.array([real(x) for x in lemma["point"]]) for lemma in document["lemmas"]]
-        if self.rows == 2:  # all that moves, moves in the plane: heights count nothing
-            flat = all(
-                abs(turn.at[2, 2]) == 1 and not turn.at[2, :2].any() and not turn.at[:2, 2].any() for turn in self.turns[:-1]
-            )
-            need(flat, "a planar target cannot be refuted for an arm that leaves the plane")
-            self.origins, self.points = ([x * [1, 1, 0] for x in some] for some in (self.origins, self.points))
-        self.links = [lemma["link"] for lemma in document["lemmas"]]
-        self.least, self.most = ([real(lemma[key]) for lemma in document["lemmas"]] for key in ("least", "most"))
+        if flat:  # all that moves, moves in the plane: heights count nothing
+            about = [turn.at for turn in self.turns[:-1]]
+            good = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in about)
+            need(good, "a planar task is one of arms that stay in the plane")
+            self.origins = [x * [1, 1, 0] for x in self.origins]
         self._known: dict[tuple[int, tuple[int, int]], tuple[float, ...]] = {}
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Apart, (self._given,)
 
     def middles(self, axis: int, parts: Iterable[tuple[int, int]]) -> Array:
         """Of parts of an axis the middle, a bound of its error, the half width above, sine and cosine (parts, 5)."""
@@ -506,7 +522,7 @@ class Apart:
         return np.array(found)
 
     def moved(self, first: int, end: Array, joints: list[Array]) -> tuple[Balls, Balls, Balls, Array]:
-        """A point of a link seen from another, axes, derivatives by the joints between, and the lengths that these carry."""
+        """A point of a link seen from another, the axes between, points on these, and the lengths that joints carry."""
         count, last = len(joints[0]) if joints else 1, first + len(joints)
         tip, turn = Balls(np.zeros((count, 3))), Balls(np.broadcast_to(np.eye(3), (count, 3, 3)))
         axes, places, lengths = [], [], np.zeros(len(joints))
@@ -518,19 +534,45 @@ class Apart:
             about[:, 0, 0] = about[:, 1, 1] = joint[:, 4]
             about[:, 1, 0], about[:, 0, 1], about[:, 2, 2] = joint[:, 3], -joint[:, 3], 1
             turn = times("nij,njk->nik", turn, Balls(about, 2.0**-52))
-            link, after = (
-                end if k + 1 == last else self.origins[k + 1],
-                end if k + 2 == last else self.origins[min(k + 2, self.n)],
-            )
-            whole = Balls(link * [1, 1, 0])
+            whole = Balls((end if k + 1 == last else self.origins[k + 1]) * [1, 1, 0])
             if k + 1 < last:
+                after = end if k + 2 == last else self.origins[k + 2]
                 whole += times("ij,j->i", self.turns[k + 1], Balls(after * [0, 0, 1]))
             lengths[k - first] = math.hypot(*whole.size) * UP
         tip += times("nij,j->ni", turn, Balls(end))
-        if not joints:
-            return tip, Balls(np.zeros((1, 0, 3))), Balls(np.zeros((1, 0, 3))), lengths
-        z = stacked(axes, 1)
-        return tip, z, times("nkij,nkj->nki", crossed(z), stacked([tip + -place for place in places], 1)), lengths
+        none = Balls(np.zeros((count, 0, 3)))
+        return tip, stacked(axes, 1) if joints else none, stacked(places, 1) if joints else none, lengths
+
+    def at(self, q: list[str]) -> list[Array]:
+        """Joint values as :meth:`moved` takes them: one row for each."""
+        values = [real(x) for x in q]
+        need(max(map(abs, values)) < 100, "a configuration turns by more than 100 rad")
+        return [np.array([[x, 0, 0, *(float(y) for y in flint.arb(x).sin_cos())]]) for x in values]
+
+
+def columns(tip: Balls, z: Balls, places: Balls) -> Balls:
+    """Derivatives of a point by the joints."""
+    return times("nkij,nkj->nki", crossed(z), tip[:, None] + -places)
+
+
+class Apart(Boxes):
+    """The leaves of a refutation: the tool is not where the target is."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given = document | {"tree": ""}
+        limits, target, lemmas = list(document["limits"]), document["target"], document["lemmas"]
+        if document["locked"] >= 0:
+            limits[document["locked"]] = document["angle"]
+        full, ends = math.nextafter(math.pi, 4), [[real(x) for x in pair] for pair in limits]
+        ends = [[low, high] if high - low < 2 * math.pi else [-full, full] for low, high in ends]
+        self.rows = len(target["axes"])
+        super().__init__(document["arm"], [*ends, *([real(x) for x in pair] for pair in target["box"])], self.rows == 2)
+        self.points = [np.array([real(x) for x in lemma["point"]]) * [1, 1, self.rows > 2] for lemma in lemmas]
+        self.links = [lemma["link"] for lemma in lemmas]
+        self.least, self.most = ([real(lemma[key]) for lemma in lemmas] for key in ("least", "most"))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Apart, (self._given,)
 
     def nearest(self, v: Balls, z: Balls, columns: Balls, lengths: Array, half: Array, wide: Array) -> Array:
         """Below the distance: along a direction e, of length 1 at most, whichever it is; two are tried."""
@@ -557,10 +599,10 @@ class Apart:
         second.off = second.off.copy()
         inner = second[:, :joints, :joints] + bend
         second.at[:, :joints, :joints], second.off[:, :joints, :joints] = inner.at, inner.off
-        width, d = np.concatenate([half, wide], axis=1), np.sqrt((v.size**2).sum(axis=1)) * UP
+        width, d = np.concatenate([half, wide], axis=1), length(v.size)
         c = np.cumsum(half, axis=1)
         one, two, three = ((c**power * lengths).sum(axis=1) for power in (1, 2, 3))
-        one += np.sqrt((wide**2).sum(axis=1)) * UP
+        one += length(wide)
         total = bent(times("na,nka->nk", v, whole).size, -second, width) + (3 * one * two + (d + one) * three) / 6
         return np.asarray(np.nextafter(np.sqrt((d**2 + 2 * total) * UP), np.inf))
 
@@ -571,11 +613,12 @@ class Apart:
         axes = [self.middles(self.n + a, (cell[self.n + a] for cell in parts)) for a in range(self.rows)]
         axes += [np.zeros((len(parts), 5))] * (3 - self.rows)
         target = stacked([Balls(-axis[:, 0], axis[:, 1]) for axis in axes], 1)
-        tip, z, columns, lengths = self.moved(0, end, joints)
         half = np.stack([joint[:, 2] for joint in joints], 1) if joints else np.zeros((len(parts), 0))
+        tip, z, places, lengths = self.moved(0, end, joints)
+        moves = columns(tip, z, places)
         if not joints:
-            z = columns = Balls(np.zeros((len(parts), 0, 3)))
-        given = tip + target, z, columns, lengths, half, np.stack([axis[:, 2] for axis in axes], 1)
+            z = moves = Balls(np.zeros((len(parts), 0, 3)))
+        given = tip + target, z, moves, lengths, half, np.stack([axis[:, 2] for axis in axes], 1)
         least, most = (self.least[which], self.most[which]) if which >= 0 else (0.0, 0.0)
         return np.asarray((self.nearest(*given) > most) | (self.farthest(*given) < least))
 
@@ -583,19 +626,16 @@ class Apart:
         """Of leaves of a lemma: whether the tool keeps its distance from the point."""
         first, point = self.links[which], self.points[which]
         joints = [self.middles(first + k, (cell[k] for cell in parts)) for k in range(self.n - first)]
-        tip, z, columns, lengths = self.moved(first, self.origins[-1], joints)
-        half = np.stack([joint[:, 2] for joint in joints], 1)
+        tip, z, places, lengths = self.moved(first, self.origins[-1], joints)
+        half, there = np.stack([joint[:, 2] for joint in joints], 1), Balls(np.broadcast_to(point, (len(parts), 3)))
         # Where the first axes pass by the point at a distance, turning about these changes the tool's by so much at most.
         aside, still = np.zeros(len(parts)), np.ones(len(parts), dtype=bool)
+        by = times("nkij,nkj->nki", crossed(z), there[:, None] + -places).size
         for k in range(len(joints)):
-            tip_k = self.moved(first, self.origins[first + k], joints[:k])[0] if k else Balls(self.origins[first][None])
-            by = times("nij,nj->ni", crossed(z[:, k]), Balls(np.broadcast_to(point, (len(tip_k.at), 3))) + -tip_k)
-            cost = np.sqrt((by.size**2).sum(axis=1)) * np.minimum(half[:, k], 2) * UP
+            cost = length(by[:, k]) * np.minimum(half[:, k], 2) * UP
             still &= cost < 1e-6
             half[:, k], aside = np.where(still, 0.0, half[:, k]), (aside + np.where(still, cost, 0.0)) * UP
-            if not still.any():
-                break
-        given = tip + Balls(np.broadcast_to(-point, (len(parts), 3))), z, columns, lengths, half, np.zeros((len(parts), 3))
+        given = tip + -there, z, columns(tip, z, places), lengths, half, np.zeros((len(parts), 3))
         near, far = np.nextafter(self.nearest(*given) - aside, -np.inf), np.nextafter(self.farthest(*given) + aside, np.inf)
         return np.asarray(((near >= self.least[which]) | (self.least[which] <= 0)) & (far <= self.most[which]))
 
@@ -604,12 +644,11 @@ class Apart:
         q, given = [real(x) for x in witness], self._given
         ranges = [given["angle"] if k == given["locked"] else pair for k, pair in enumerate(given["limits"])]
         within = all(real(pair[0]) <= x <= real(pair[1]) for x, pair in zip(q, ranges, strict=True))
-        angles = [[float(y) for y in flint.arb(x).sin_cos()] for x in q]
-        tip = self.moved(0, self.origins[-1], [np.array([[x, 0, 0, *angle]]) for x, angle in zip(q, angles, strict=True)])[0]
+        tip = self.moved(0, self.origins[-1], self.at(witness))[0]
         sides = [[real(x) for x in pair] for pair in given["target"]["box"]]
         low, high = tip.low[0], -(-tip).low[0]
         inside = all(a <= x and y <= b for (a, b), x, y in zip(sides, low, high, strict=False))
-        return within and max(map(abs, q)) < 100 and inside
+        return within and inside
 
     def rejected(self, chunk: list[tuple[Cell, tuple[int, int]]]) -> tuple[int, list[tuple[Cell, tuple[int, int]]]]:
         """How many leaves were checked, and which of them prove nothing; each with its tree, -1 the main one, and its lemma."""
@@ -620,6 +659,121 @@ class Apart:
                 good = self.excluded(kind[1], parts) if kind[0] < 0 else self.keeps(kind[0], parts)
                 bad += [(cell, kind) for cell, fine in zip(parts, good, strict=True) if not fine]
         return len(chunk), bad
+
+
+class Wrenches(Boxes):
+    """The leaves of a ceiling of relative manipulability."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given = document | {"tree": ""}
+        ends = [[real(x) for x in pair] for pair in document["joint_box"]]
+        super().__init__(document["arm"], ends, document["task"] == "planar-pose")
+        self.most, self.rows, self.locks = real(document["threshold"]), SIX[document["task"]], document["locks"]
+        line, column = np.indices(
+            (self.n, self.n)
+        )  # joint j moves axis l, seen from link n/2: one way behind it, the other before
+        self.middle = self.n // 2
+        behind, before = (column >= self.middle) & (column < line), (column < self.middle) & (column > line)
+        self.sign = 1.0 * behind - 1.0 * before
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Wrenches, (self._given,)
+
+    def screws(self, joints: list[Array]) -> tuple[Balls, Balls, Array, Array]:
+        """Axes, moments of these about a point on the middle one, and distances: from axis to axis, and to the point."""
+        _, z, places, _ = self.moved(0, self.origins[-1], joints)
+        path = [places[:, k] for k in range(self.n)]
+        links, order = np.zeros((len(places.at), self.n)), [*range(self.middle + 1, self.n), *range(self.middle - 1, -1, -1)]
+        for j in order:  # any point of an axis will do: one that is near the one before
+            last = path[j - 1 if j > self.middle else j + 1]
+            along = np.nan_to_num(((last.at - path[j].at) * z.at[:, j]).sum(axis=1))
+            path[j] += times("n,na->na", Balls(along), z[:, j])
+            links[:, j] = length((path[j] + -last).size)
+        away = stacked(path, 1) + -path[self.middle][:, None]
+        return z, times("nlij,nlj->nli", crossed(away), z), links, length(away.size, 2)
+
+    def third(self, y: Array, turn: Array, links: Array, away: Array, half: Array) -> Array:
+        """Above what is left of the moments behind first and second order."""
+        c, v = half @ abs(self.sign).T, np.zeros((3, *links.shape))
+        for j in range(self.n):
+            between = slice(self.middle, j) if j > self.middle else slice(j + 1, self.middle)
+            for r in range(3 if j not in (self.middle, self.middle - 1) else 0):
+                carried = slice(j, self.n) if j > self.middle else slice(0, j + 1)
+                v[r, :, carried] += (links[:, j] * half[:, between].sum(axis=1) ** (r + 1))[:, None]
+        far, (moment, force) = away + v[0], (length(x)[:, None] for x in (y[:, :3], y[:, 3:]))
+        more = [(length(x) * half).sum(axis=1)[:, None] for x in (turn[:, :3], turn[:, 3:])]
+        first = force * (v[2] + 3 * v[1] * c + 3 * v[0] * c**2 + far * c**3) + moment * c**3
+        return np.asarray((first / 6 + (more[1] * (v[1] + 2 * v[0] * c + far * c**2) + more[0] * c**2) / 2) * UP + LEAST)
+
+    def wrench(self, own: Array, others: Array, moved: Array, half: Array, k: int) -> tuple[Array, Array]:
+        """Any wrench y (leaves, 6), and how it follows the joints (leaves, 6, n): such that other moments hardly change."""
+        counts = half * self.sign.any(axis=0)
+        gram = np.einsum("nla,nlb->nab", others, others) + 0.01 * (counts.max(axis=1) ** 2)[:, None, None] * np.eye(6)
+        gram += 1e-30 * np.eye(6)
+        y = np.linalg.solve(gram, own[:, :, None])[:, :, 0]
+        y = y / (y * own).sum(axis=1)[:, None]
+        slopes = np.einsum("nljb,nb->nlj", moved, y)
+        turn = -np.linalg.solve(gram, np.einsum("nla,nlj->naj", others, np.delete(slopes, k, axis=1)))
+        turn = turn - y[:, :, None] * (np.einsum("na,naj->nj", own, turn) + slopes[:, k])[:, None]
+        return np.nan_to_num(y), np.nan_to_num(turn)
+
+    def costs(self, k: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves: whether a lock of joint k costs enough."""
+        joints = [self.middles(j, (cell[j] for cell in parts)) for j in range(self.n)]
+        half = np.stack([joint[:, 2] for joint in joints], 1)
+        z, v, links, away = self.screws(joints)
+        screws = Balls(np.concatenate([z.at, v.at], 2), np.concatenate([z.off, v.off], 2))
+        # The derivative of screw l by joint j is the bracket of screws j and l, and so on with joints nearer the middle.
+        turned, shifted = times("njab,nlb->njla", crossed(z), z), times("njab,nlb->njla", crossed(z), v)
+        shifted += times("njab,nlb->njla", crossed(v), z)
+        bracket = Balls(np.concatenate([turned.at, shifted.at], 3), np.concatenate([turned.off, shifted.off], 3))
+        sign = self.sign[:, :, None]
+        moved = Balls(bracket.at.transpose(0, 2, 1, 3) * sign, bracket.off.transpose(0, 2, 1, 3) * abs(sign))
+        y, turn = self.wrench(screws.at[:, k], np.delete(screws.at, k, axis=1), moved.at, half, k)
+        wrench, turning = Balls(y), Balls(turn)
+        slope = times("nljb,nb->nlj", moved, wrench) + times("nla,naj->nlj", screws, turning)
+        force, moment = Balls(y[:, 3:]), Balls(y[:, :3])
+        down = -(times("nlab,nb->nla", crossed(z), moment) + times("nlab,nb->nla", crossed(v), force))
+        right = -times("nlab,nb->nla", crossed(z), force)
+        pulled = Balls(np.concatenate([down.at, right.at], 2), np.concatenate([down.off, right.off], 2))
+        twice = times("nia,njla->nlij", pulled, bracket)
+        mask = abs(self.sign[:, :, None] * self.sign[:, None])
+        inner = np.arange(self.n)[:, None, None] >= self.middle  # behind the middle the nearer joint has the lower number
+        twice = Balls(*(mask * np.where(inner, x, x.transpose(0, 1, 3, 2)) for x in (twice.at, twice.off)))
+        cross = times("nai,nlja->nlij", turning, moved)
+        pairs = np.triu((twice + cross + Balls(cross.at.transpose(0, 1, 3, 2), cross.off.transpose(0, 1, 3, 2))).size, 1)
+        own = (Balls(twice.at / 2, twice.off / 2) + cross).size * np.eye(self.n)
+        rest = (slope.size * half[:, None]).sum(axis=2) + np.einsum("ni,nlij,nj->nl", half, pairs + own, half)
+        rest = (rest + self.third(y, turn, links, away, half)) * UP
+        moments = times("nla,na->nl", screws, wrench)
+        others, least = (moments.size + rest) * UP, np.maximum(np.nextafter(moments.low - rest, -np.inf)[:, k], 0)
+        others[:, k], c = 0, self.most
+        high, low = (others**2).sum(axis=1) * ((1 - c) * (1 + c)) * UP, c**2 * least**2 * (1 - 1e-12)
+        return np.asarray((high < low) & (least > 1e-100))
+
+    def rejected(self, chunk: list[tuple[Cell, int]]) -> tuple[int, list[Cell]]:
+        """How many leaves were checked, and which of them prove nothing; each with the joint whose lock costs enough."""
+        bad = list[Cell]()
+        with flint.ctx.workprec(64), np.errstate(all="ignore"):
+            for k in sorted({k for _, k in chunk}):
+                parts = [cell for cell, other in chunk if other == k]
+                bad += [cell for cell, good in zip(parts, self.costs(k, parts), strict=True) if not good]
+        return len(chunk), bad
+
+    def occurs(self, q: list[str]) -> float:
+        """Below the least relative manipulability at a configuration: its square is 1 - J_k' (JJ')^-1 J_k."""
+        tip, z, places, _ = self.moved(0, self.origins[-1], self.at(q))
+        made = columns(tip, z, places)
+        values, errors = (np.concatenate([x[0], y[0]], 1).T[self.rows] for x, y in ((made.at, z.at), (made.off, z.off)))
+        jacobian = flint.arb_mat(
+            *values.shape, [flint.arb(float(x), float(e)) for x, e in zip(values.flat, errors.flat, strict=True)]
+        )
+        try:
+            solved = (jacobian * jacobian.transpose()).solve(jacobian)
+        except ZeroDivisionError:
+            return 0.0
+        kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
+        return min(math.sqrt(max(0.0, math.nextafter(float(x.lower()), -math.inf))) * (1 - 1e-15) for x in kept)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -635,6 +789,7 @@ class Verdict:
     shadow: frozenset[Cell]  # cells of targets for which something is undecided
     parts: tuple[Verdict, ...] = ()
     refuted: bool = False  # a configuration shows that the claim is false
+    occurs: float = 0.0  # of a ceiling: a value that is attained, or less
 
     @property
     def sampled(self) -> bool:
@@ -653,10 +808,17 @@ class Verdict:
         if self.document.get("witness"):
             at = ", ".join(repr(real(x)) for x in self.document["witness"])
             return f"Refuted: at ({at}) the tool is in the box." if self.refuted else text
+        if self.document["kind"] == "ceiling":
+            at = ", ".join(repr(real(x)) for x in self.document["best"])
+            best = f"{math.floor(self.occurs * 1e6) / 1e6:.6f} occurs, at ({at})"
+            if self.refuted:
+                return f"Refuted: {best}."
         text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
         text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
         text += " in the worst part" * bool(self.parts)
-        if self.document.get("locked") != -1:
+        if self.document["kind"] == "ceiling":
+            text += f" of the box; {best}"
+        elif self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
@@ -721,6 +883,28 @@ def _refutation(document: dict[str, Any], sample: int | None, workers: int, tell
     )  # fmt: skip
 
 
+def _ceiling(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    began, leaves = time.perf_counter(), Wrenches(document)
+    with flint.ctx.workprec(64), np.errstate(all="ignore"):
+        inside = all(real(a) <= real(x) <= real(b) for x, (a, b) in zip(document["best"], document["joint_box"], strict=True))
+        need(inside, "the best configuration is outside of the box")
+        occurs = leaves.occurs(document["best"])
+    tree = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree")
+    undecided = [cell for token, cell in cells(tree, leaves.n, 2, LOCK) if token < LOCK]
+    locks = {LOCK + k for k in document["locks"]}
+    need(all(token < LOCK or token in locks for token in set(tree)), "a leaf names a joint that is not among the locks")
+    _agree(document, volume(undecided))
+    count = sum(tree.count(token) for token in locks)
+    picked = _picked(count, sample)
+    proofs = ((cell, token - LOCK) for token, cell in cells(tree, leaves.n, 2, LOCK) if token >= LOCK)
+    checked, rejected = _looked_at(leaves, (proof for i, proof in enumerate(proofs) if i in picked), workers, tell)
+    return Verdict(
+        document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), occurs=occurs,
+        seconds=time.perf_counter() - began, undecided=volume(undecided) + volume(rejected),
+        refuted=occurs > leaves.most, shadow=frozenset(),
+    )  # fmt: skip
+
+
 def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
     began, leaves = time.perf_counter(), Leaves(document)
     tree, axes = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree"), len(leaves.width)
@@ -756,7 +940,9 @@ def verify(
     path, tell = Path(path), progress or (lambda size: None)
     document = load(path)
     if document["kind"] != "bundle":
-        return {"reach": _reach, "refutation": _refutation}[document["kind"]](document, sample, workers, tell)
+        return {"reach": _reach, "refutation": _refutation, "ceiling": _ceiling}[document["kind"]](
+            document, sample, workers, tell
+        )
     files, ranges = [load(path.parent / part["file"]) for part in document["parts"]], document["working_ranges"]
     same = {"kind": "reach"} | {key: document[key] for key in ("arm", "task", "target")}
     for part, file, locked in zip(document["parts"], files, [-1, *document["locks"]], strict=True):

@@ -23,7 +23,7 @@ from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.completion import completed
-from holdfast.recovery.continuation import RestOfPath, along, rest_of_path
+from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_path
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.flood import disconnected, holds_configuration, may_meet
@@ -248,8 +248,10 @@ class _Search:
         self._look("following the tool path")
         if not rest.finished:
             self._prove_of_path(rest.share, rest.found, path.pose(rest.share), here)
-        if not motions:
-            return rest
+        return self._reach(here, path, rest, motions) if motions else rest
+
+    def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
+        """The first of the motions along the path that can be reached, and is near it all the way."""
         route = self._route(here, np.stack([m[0] for m in motions]))
         self._look("looking for a route to the tool path")
         if route is None:
@@ -261,7 +263,10 @@ class _Search:
         if rest.graph:
             motion = shorter(self.solver, self.space, self.metric, path.pose(rest.share), motion)
         if rest.given_up is None:
-            rest = along(rest, self.solver, path, motion)
+            finer = refined(rest, self.solver, self.space, path, motion)
+            if finer is None and len(motions) > 1 and not self.space.spent:
+                return self._reach(here, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
+            rest, motion = finer or (along(rest, self.solver, path, motion), motion)
         motion = motion + (route.q[-1] - motion[0])  # whole turns
         if route.length > SAME:
             self._add("to the path", route.q, route.lower_bound, route.straight)

@@ -1,4 +1,4 @@
-"""``holdfast certify``: reach, tolerant, out-of-reach. ``holdfast certificate``: check, show."""
+"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling. ``holdfast certificate``: check, show."""
 
 from __future__ import annotations
 
@@ -207,6 +207,62 @@ def tolerant(
     _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
+@command.command()
+def ceiling(
+    arm: ArmArgument,
+    below: Annotated[float, typer.Option("--below", help="Threshold, between 0 and 1.", show_default=False)],
+    around: Annotated[
+        str | None,
+        typer.Option("--around", help="Middle of the box: a value of each joint, rad. Default: limits.", show_default=False),
+    ] = None,
+    within: Annotated[
+        str | None,
+        typer.Option("--within", help="Half widths of it, rad: one number, or one for each joint.", show_default=False),
+    ] = None,
+    limit: LimitOption = None,
+    task: Annotated[str, typer.Option("--task", help="pose; planar-pose for arms in a plane.")] = "pose",
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: Annotated[int, typer.Option("--halvings", help="Of each joint, at most.")] = 16,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("ceiling.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that relative manipulability is nowhere in a box of configurations above a threshold.
+
+    The best configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something is
+    undecided, 4 if that configuration is above the threshold, 1 if the check rejects something. Ctrl-C writes what is proved
+    so far.
+
+    Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
+    """
+    model = read_arm(arm, base, tip, hold)
+    box: dict[str | int, tuple[float, float]] = {}
+    if (around is None) != (within is None):
+        raise InputError("--around and --within go together: the middle of the box and its half widths")
+    if around is not None and within is not None:
+        middle = read_numbers("--around", around, f"{model.n} numbers,")
+        half = read_numbers("--within", within, f"one number, or {model.n},")
+        if len(middle) != model.n or len(half) not in (1, model.n):
+            raise InputError(f"--around needs {model.n} numbers, and --within one or {model.n}")
+        pairs = zip(model.joint_names, middle, [*half] * (model.n // len(half)), strict=True)
+        texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
+        box = _intervals(model, "--around", texts, degrees)
+    claim = hf.certificates.ceiling_claim(
+        model,
+        box | _intervals(model, "--limit", limit or [], degrees),
+        below,
+        failures=read_failures(model, failures),
+        task=task,
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
 def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> None:
     """Search, write, check, print."""
     with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
@@ -218,7 +274,7 @@ def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> No
         raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation) and proof.refuted:
+    if isinstance(proof, hf.certificates.Refutation | hf.certificates.Ceiling) and proof.refuted:
         raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import ROWS, OutOfReachClaim
-from holdfast.certificates.halving import OPEN, Halving, Index
-from holdfast.certificates.segments import Segment
+from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index
+from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain, Reach
 
 Array = NDArray[np.float64]

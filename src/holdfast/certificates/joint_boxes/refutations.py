@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.exclusion import exclude
+from holdfast.certificates.joint_boxes.exclusion import exclude
 from holdfast.certificates.proof import early, written
 from holdfast.notice import Progress
 from holdfast.result import Result
@@ -23,25 +23,20 @@ _FINE = 10_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refutation(Result):
-    """What the prover found for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
+class Halved(Result):
+    """What the halving of a box found. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
-        claim: What was asked.
-        proved: Exact share of pairs of target and configuration that are told apart.
-        undecided: The rest.
-        witness: (n,) rad, a configuration whose tool is in the box: the claim is false. None: none was found.
-        leaves: Boxes that are told apart, those of lemmas among them.
+        proved, undecided: Exact parts of the box.
+        leaves: Boxes that are proved, those of lemmas among them.
         nodes: Boxes that were looked at.
         finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
         seconds: Measured.
-        document: The certificate, as its file holds it; with a witness, of that.
+        document: The certificate, as its file holds it.
     """
 
-    claim: OutOfReachClaim
     proved: Fraction
     undecided: Fraction
-    witness: NDArray[np.float64] | None
     leaves: int
     nodes: int
     finished: bool
@@ -53,11 +48,6 @@ class Refutation(Result):
         """True if nothing is undecided."""
         return self.undecided == 0
 
-    @property
-    def refuted(self) -> bool:
-        """True if a witness was found."""
-        return self.witness is not None
-
     def write(self, file: str | Path) -> Path:
         """Write the certificate.
 
@@ -65,6 +55,26 @@ class Refutation(Result):
             StoreError: The file cannot be written.
         """
         return written(self.document, Path(file))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Refutation(Halved):
+    """What the prover found for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        claim: What was asked.
+        proved: Exact share of pairs of target and configuration that are told apart.
+        witness: (n,) rad, a configuration whose tool is in the box: the claim is false, and the document says so. None: none
+            was found.
+    """
+
+    claim: OutOfReachClaim
+    witness: NDArray[np.float64] | None
+
+    @property
+    def refuted(self) -> bool:
+        """True if a witness was found."""
+        return self.witness is not None
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
