@@ -12,6 +12,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 _SLACK = 1e-9  # m: rounding
+_WIDEST = 0.08  # rad and m: where half of the joints move more, hardly a link is deeper in an object than it moves
 
 
 class WithinObjects:
@@ -40,10 +41,12 @@ class WithinObjects:
         found = np.zeros(len(q), dtype=bool)
         if not self._links.size or not self._margins.size:
             return found
-        every = self._inner.distances(q) - self._margins
+        some = np.flatnonzero(np.sort(half, axis=1)[:, half.shape[1] // 2] < _WIDEST)
+        every = self._inner.distances(q[some]) - self._margins
+        deep = (every < -_SLACK).any(axis=(1, 2))
+        some, every = some[deep], every[deep]
         nearest, room = every.argmin(axis=2), every.min(axis=2)
-        some = np.flatnonzero((room < -_SLACK).any(axis=1))
-        nearest, room, half, frames = nearest[some], room[some], half[some], self._arm.frames(q[some])
+        half, frames = half[some], self._arm.frames(q[some])
         origins, turns = frames[:, 1:-1, :3, 3], np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], self._axes)
         places, moved = frames[:, self._links + 1][:, :, :3, 3], np.zeros_like(room)
         for k in range(self._arm.n - 1, -1, -1):
