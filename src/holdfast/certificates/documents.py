@@ -153,8 +153,11 @@ def _stored(arm: Arm) -> Document:
         {"rotation": _hexes(turn.ravel()), "origin": _hexes(place)}
         for turn, place in zip(chain.rotations, chain.origins, strict=True)
     ]
-    joints = zip(arm.joint_names, frames, limits, strict=False)
-    stored = [{"name": name, "type": "revolute", **frame, "limits": _hexes(pair)} for name, frame, pair in joints]
+    joints = zip(arm.joints, frames, limits, strict=False)
+    stored = [
+        {"name": joint.name, "type": "prismatic" if joint.prismatic else "revolute", **frame, "limits": _hexes(pair)}
+        for joint, frame, pair in joints
+    ]
     return {"joints": stored, "tool": frames[-1]}
 
 

@@ -23,6 +23,7 @@ from holdfast.notice import Progress, says
 
 _FINE = 10_000  # of which progress is told: ten thousandths of all parts
 _BEGIN = 4  # of the time limit, to begin with
+_SLICE = 2.0  # s on a part, then on the next, so that one that is stopped has something of each
 Stop = Callable[[], bool]
 
 
@@ -49,7 +50,7 @@ class _Part:
         began = perf_counter()
         self.claim, self.closed, self.finished = claim, 0.0, False
         root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
-        reach = Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits, claim.rotation)
+        reach = Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits, claim.rotation, claim.angle)
         self._search = Search(reach, root, halvings, seed, until)
         cells = self._search.pool.cells
         if verifier.MOST_LEAVES < cells < np.inf:
@@ -146,12 +147,13 @@ def certify(
         parts.append(_Part(part, halvings, seed, now + (ready - now) / left))
 
     def tell() -> None:
-        if progress is not None:
-            progress(int(_FINE * sum(part.closed for part in parts)), _FINE * len(parts))
+        done = int(_FINE * sum(part.closed for part in parts))
+        if progress is not None and done:
+            progress(done, _FINE * len(parts))
 
     while (open_parts := [part for part in parts if not part.finished]) and monotonic() < end and not stop():
         for left, open_part in zip(range(len(open_parts), 0, -1), open_parts, strict=True):
             now = monotonic()
-            open_part.run(now + (end - now) / left, stop, tell)
+            open_part.run(now + min((end - now) / left, _SLICE), stop, tell)
     proofs = tuple(part.proof() for part in parts)
     return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]

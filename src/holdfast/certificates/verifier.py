@@ -311,7 +311,8 @@ class Leaves:
         self.slides = np.array([joint["type"] == "prismatic" for joint in joints])
         ends = [*target["box"], *([document["angle"]] if self.locked >= 0 else [])]
         self.low, high = ([flint.fmpq(*real(pair[end]).as_integer_ratio()) for pair in ends] for end in (0, 1))
-        self.angle = max((abs(real(x)) for x in document["angle"] or ()), default=0.0)  # of the locked joint, largest
+        # How far a locked slide is out, at most.
+        self.out = max((abs(real(x)) for x in document["angle"] or () if self.slides[self.locked]), default=0.0)
         self.width = [b - a for a, b in zip(self.low, high, strict=True)]
         frames = [*joints, document["arm"]["tool"]]
         self.rotations = [_rotation(frame["rotation"]) for frame in frames]
@@ -402,7 +403,7 @@ class Leaves:
         far = (reach @ w[:, :, None])[:, :, 0] * UP
         angle = np.cumsum(far * np.append(~self.slides, [True] * self.turning), axis=1) * UP
         c, slid = angle[:, : self.n], far[:, : self.n] * self.slides
-        third = (c**3 * (self.lengths + np.maximum(abs(q), self.angle) * self.slides + slid) + 3 * c**2 * slid).sum(axis=1) / 6
+        third = (c**3 * (self.lengths + np.maximum(abs(q), self.out) * self.slides + slid) + 3 * c**2 * slid).sum(axis=1) / 6
         rest = np.stack([third] * self.linear + [angle[:, -1] ** 3 / 6] * (self.m - self.linear), axis=1)
         rest += (slope @ w[:, :, None])[:, :, 0] + ((mixed @ w[:, None, :, None])[..., 0] * w[:, None]).sum(axis=2)
         high, low = ((rest + (x @ w[:, :, None] ** 2)[:, :, 0] / 2) * UP for x in (up, down))

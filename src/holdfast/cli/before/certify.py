@@ -37,11 +37,11 @@ SizeOption = Annotated[
 ]
 LockOption = Annotated[
     str | None,
-    typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
+    typer.Option("--lock", help="JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy.", show_default=False),
 ]
 LimitOption = Annotated[
     list[str] | None,
-    typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
+    typer.Option("--limit", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again.", show_default=False),
 ]
 RotationOption = Annotated[
     str | None,
@@ -59,7 +59,7 @@ TurnsOption = Annotated[
         show_default=False,
     ),
 ]
-AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")]
+AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees (slides stay in m).")]
 HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
 TimeOption = Annotated[
     float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
@@ -163,13 +163,13 @@ def tolerant(
     rotation_size: TurnsOption = None,
     ranges: Annotated[
         Path | None,
-        typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad.", show_default=False),
+        typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m.", show_default=False),
     ] = None,
     range_: Annotated[
         list[str] | None,
         typer.Option(
             "--range",
-            help="JOINT=LOW..HIGH, rad: a working range. May be given again. Default: the joint's limits.",
+            help="JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits.",
             show_default=False,
         ),
     ] = None,
