@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 from contextlib import nullcontext
+
+import pytest
 
 
 def test_the_commands(cli, tmp_path):
@@ -67,6 +70,22 @@ def test_out_of_reach(cli, tmp_path):
     code, out, _ = cli(*words, "--box", "2.6 0", "--size", "0.2", "--time-limit", "1e-9", "--no-check", "--json")
     assert code == 3
     assert json.loads(out)["witness"] is None
+
+
+def test_poses(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "reach", "panda", "--box", "0.5 0 0.5", "--size", "0.01", "--degrees", "--out", str(file)]
+    for size, axes in ((), "xyz"), (("--rotation-size", "1"), "xyzRPY"):
+        assert cli(*words, "--rotation", "180 0 0", *size)[0] == 0
+        document = json.loads(file.read_text())
+        assert document["target"]["axes"] == axes
+        assert (document["target"]["orientation"] is None) == bool(size)
+    roll = [math.degrees(float.fromhex(x)) for x in document["target"]["box"][3]]
+    assert roll == pytest.approx([179.5, 180.5])
+    code, _, err = cli(*words, "--rotation-size", "1")
+    assert code == 2
+    assert "--rotation" in err
+    assert cli(*words, "--rotation", "180 0")[0] == 2
 
 
 def test_a_ceiling(cli, tmp_path):

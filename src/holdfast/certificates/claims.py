@@ -9,15 +9,16 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 
 Array = NDArray[np.float64]
 
-ROWS = {"planar": 2, "position": 3}
-_TASKS = {rows: task for task, rows in ROWS.items()}
+ROWS = {"planar": 2, "position": 3, "pose": 6}
+_TASKS = {2: "planar", 3: "position"}  # by coordinates of a target
+_SKEWED = 1e-6  # of a rotation: so much is mended
 _SIX = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
 
@@ -27,8 +28,10 @@ class ReachClaim:
 
     Attributes:
         arm: The arm, all of whose joints turn.
-        task: ``position`` or ``planar``.
-        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m.
+        task: ``position``, ``planar`` or ``pose``.
+        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m; (6, 2) where the tool is
+            turned as well: its roll, pitch and yaw, rad, the rotation Rz(yaw) Ry(pitch) Rx(roll).
+        rotation: (3, 3) of the tool at every target; None where it is free, or turned.
         locked: Index of the locked joint; -1: the arm is healthy.
         angle: (2,) rad, between which it may be locked; None for a healthy arm.
         limits: (n, 2) rad, within which the configuration is.
@@ -37,6 +40,7 @@ class ReachClaim:
     arm: Arm
     task: str
     box: Array
+    rotation: Array | None = None
     locked: int
     angle: Array | None
     limits: Array
@@ -47,9 +51,7 @@ class TolerantClaim:
     """Every target of a box is reached by the healthy arm within working ranges, and after any one joint locked within its own.
 
     Attributes:
-        arm: The arm, all of whose joints turn.
-        task: ``position`` or ``planar``.
-        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m.
+        arm, task, box, rotation: As of :class:`ReachClaim`.
         working_ranges: (n, 2) rad, within which the healthy arm is kept, and so a joint when it locks.
         locks: Indices of the joints that may lock, one at a time, in order. After it the arm's own limits hold.
     """
@@ -57,6 +59,7 @@ class TolerantClaim:
     arm: Arm
     task: str
     box: Array
+    rotation: Array | None = None
     working_ranges: Array
     locks: tuple[int, ...]
 
@@ -64,7 +67,7 @@ class TolerantClaim:
     def parts(self) -> tuple[ReachClaim, ...]:
         """Of the healthy arm, then of each lock."""
         own = np.column_stack([self.arm.lower, self.arm.upper])
-        made = partial(ReachClaim, arm=self.arm, task=self.task, box=self.box)
+        made = partial(ReachClaim, arm=self.arm, task=self.task, box=self.box, rotation=self.rotation)
         healthy = made(locked=-1, angle=None, limits=self.working_ranges)
         return healthy, *(made(locked=k, angle=self.working_ranges[k], limits=own) for k in self.locks)
 
@@ -75,6 +78,8 @@ def reach_claim(
     centre: ArrayLike,
     size: ArrayLike,
     *,
+    rotation: ArrayLike | None = None,
+    rpy: ArrayLike | None = None,
     locked: Mapping[str | int, tuple[float, float]] | None = None,
     limits: Mapping[str | int, tuple[float, float]] | None = None,
 ) -> ReachClaim:
@@ -84,13 +89,16 @@ def reach_claim(
         arm: The arm; all of its joints must turn.
         centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
         size: Its edges, m: one number, or one along each axis; 0: none.
+        rotation: (3, 3) of the tool in the base frame, at every target; None: it may turn as it likes.
+        rpy: (3, 2) lowest and highest roll, pitch and yaw of the tool, rad, all of which are targets: the rotations
+            Rz(yaw) Ry(pitch) Rx(roll).
         locked: ``{joint: (low, high)}``, rad, a single joint; None: the arm is healthy.
         limits: ``{joint: (low, high)}``, rad, that the configurations keep, narrower than the arm's own: working ranges.
 
     Raises:
         InputError: A box, joint, angle or limit that makes no claim, or an arm with slides.
     """
-    box = _box(arm, centre, size)
+    box, task, turned = _targets(arm, centre, size, rotation, rpy)
     kept = np.column_stack([arm.lower, arm.upper])
     for joint, pair in (limits or {}).items():
         kept[arm.joint_index(joint)] = _within(arm, joint, pair)
@@ -104,8 +112,8 @@ def reach_claim(
             raise InputError(
                 f"{arm.joint_names[which]} may lock beyond the limits that are given for it; widen these, or leave them out"
             )
-    _need_joints(arm, len(locked or ()), len(box))
-    return ReachClaim(arm=arm, task=_TASKS[len(box)], box=box, locked=which, angle=angle, limits=kept)
+    _need_joints(arm, len(locked or ()), ROWS[task])
+    return ReachClaim(arm=arm, task=task, box=box, rotation=turned, locked=which, angle=angle, limits=kept)
 
 
 @checked
@@ -114,6 +122,8 @@ def tolerant_claim(
     centre: ArrayLike,
     size: ArrayLike,
     *,
+    rotation: ArrayLike | None = None,
+    rpy: ArrayLike | None = None,
     working_ranges: Mapping[str | int, tuple[float, float]] | None = None,
     failures: FailureSpec = "single",
 ) -> TolerantClaim:
@@ -126,6 +136,8 @@ def tolerant_claim(
         arm: The arm; all of its joints must turn.
         centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
         size: Its edges, m: one number, or one along each axis; 0: none.
+        rotation: As of :func:`reach_claim`.
+        rpy: Likewise.
         working_ranges: ``{joint: (low, high)}``, rad, within the limits; of a joint that is not named, its limits.
         failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
 
@@ -136,7 +148,7 @@ def tolerant_claim(
 
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
     """
-    box = _box(arm, centre, size)
+    box, task, turned = _targets(arm, centre, size, rotation, rpy)
     ranges = np.column_stack([arm.lower, arm.upper])
     for joint, pair in (working_ranges or {}).items():
         ranges[arm.joint_index(joint)] = _within(arm, joint, pair)
@@ -144,8 +156,31 @@ def tolerant_claim(
     for k in locks:
         if not np.isfinite(ranges[k]).all():
             raise InputError(f"{arm.joint_names[k]} has no limits, so it may lock anywhere; give its working range")
-    _need_joints(arm, 1, len(box))
-    return TolerantClaim(arm=arm, task=_TASKS[len(box)], box=box, working_ranges=ranges, locks=locks)
+    _need_joints(arm, 1, ROWS[task])
+    return TolerantClaim(arm=arm, task=task, box=box, rotation=turned, working_ranges=ranges, locks=locks)
+
+
+def _targets(
+    arm: Arm, centre: ArrayLike, size: ArrayLike, rotation: ArrayLike | None, rpy: ArrayLike | None
+) -> tuple[Array, str, Array | None]:
+    """Box, task and rotation of a claim."""
+    box = _box(arm, centre, size)
+    if rotation is None and rpy is None:
+        return box, _TASKS[len(box)], None
+    if rotation is not None and rpy is not None:
+        raise InputError("rotation and rpy both say how the tool is turned; give one of them")
+    if len(box) < 3:
+        raise InputError("a tool is turned in space; give the centre of the box with three numbers")
+    if rpy is not None:
+        angles = real_numbers(rpy, "rpy", "lowest and highest roll, pitch and yaw, (3, 2), rad")
+        if angles.shape != (3, 2) or not np.isfinite(angles).all() or (angles[:, 0] > angles[:, 1]).any():
+            raise InputError("rpy must be the lowest and the highest roll, pitch and yaw, (3, 2), rad, finite, the lower first")
+        return np.vstack([box, angles]), "pose", None
+    turn = real_numbers(rotation, "rotation", "a rotation (3, 3)")
+    if turn.shape != (3, 3) or not np.abs(turn.T @ turn - np.eye(3)).max() < _SKEWED or np.linalg.det(turn) < 0:
+        raise InputError("rotation must be a rotation (3, 3): orthonormal columns, right-handed")
+    left, _, right = np.linalg.svd(turn)
+    return box, "pose", left @ right
 
 
 def _box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import ROWS, CeilingClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
+from holdfast.certificates.claims import CeilingClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.taylor import UNIT, Chain
@@ -141,7 +141,12 @@ def _common(
     }
     if isinstance(claim, CeilingClaim | StructuralZeroClaim):
         return made
-    return made | {"target": {"axes": "xyz"[: ROWS[claim.task]], "box": _hexes(claim.box), "orientation": None}}
+    return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
+
+
+def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
+    rotation = None if isinstance(claim, OutOfReachClaim) else claim.rotation
+    return None if rotation is None else [x for row in _hexes(rotation) for x in row]
 
 
 def _signed(document: Document) -> Document:

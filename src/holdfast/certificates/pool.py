@@ -12,10 +12,12 @@ from holdfast.certificates.taylor import Form, Reach
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-_TARGETS, _AT_ONCE, _STARTS = 1000, 250, 12  # targets, so many of them at once, and random starts of each
+_TARGETS, _MOST, _STARTS = 250, 1000, 12  # targets at first and at most, and random starts of each
+_EACH = 32  # cells for each target: where there are more, there are more targets
 _STRIDE = 0.5  # along self-motions, rad
 _CLIMB, _TYPICAL = 10, 16  # such steps, to prove more of cells that are so many times smaller than the root
-_MET = 1e-9  # m
+_ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
+_MET = 1e-9  # m and rad
 
 
 def stepped(reach: Reach, q: Array, rng: np.random.Generator) -> Array:
@@ -36,37 +38,44 @@ class Pool:
 
     Attributes:
         q: (N, n) rad.
+        cells: That the whole would take, estimated; infinite where nobody knows.
     """
 
     def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
-        self._reach, self._rng, self._width = reach, rng, root[:, 1] - root[:, 0]
+        self._reach, self._root, self._rng = reach, root, rng
+        self._width = root[:, 1] - root[:, 0]
         self._unit = np.where(self._width > 0, self._width, 1.0)
-        q, at = np.empty((0, reach.n)), np.empty((0, len(root)))
-        while len(at) < _TARGETS * _STARTS and monotonic() < until:
-            drawn = root[:, 0] + rng.random((_AT_ONCE, len(root))) * self._width
-            at = np.concatenate([at, np.repeat(drawn, _STARTS, axis=0)])
-            q = np.concatenate([q, self._solved(at[len(q) :])])
-        met = reach.missed(q, at[:, : reach.m]) < _MET
-        self.q, at = q[met], at[met]
-        self._at, self._count = at[:, : reach.m], 0
-        self._added: list[tuple[Array, Array]] = [(at / self._unit, self.q)]
-        self._climb(until)
+        self.q, self._at, self._count = np.empty((0, reach.n)), np.empty((0, len(root))), 0
+        self._grow(until)
+        self.cells, targets = self._estimate(), _TARGETS
+        while targets < min(_MOST, self.cells / _EACH) and monotonic() < until:
+            self._grow(until)
+            targets += _TARGETS
+        self._added: list[tuple[Array, Array]] = [(self._at / self._unit, self.q)]
 
-    def _solved(self, at: Array) -> Array:
-        low, high = np.clip(self._reach.limits.T, -np.pi, np.pi)
-        q = self._reach.placed(self._rng.uniform(low, high, (len(at), self._reach.n)), at)
-        return self._reach.solved(q, at[:, : self._reach.m], 40)
+    def _grow(self, until: float) -> None:
+        """By configurations of some targets more, where one is found."""
+        reach = self._reach
+        drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
+        at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < until else 0]
+        low, high = np.clip(reach.limits.T, -np.pi, np.pi)
+        q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
+        q = reach.solved(q, at[:, : reach.axes], 40)
+        met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
+        self.q = np.concatenate([self.q, self._climbed(q[met], at[met, : reach.axes], until)])
+        self._at = np.concatenate([self._at, at[met]])
 
-    def _climb(self, until: float) -> None:
-        """In place: along self-motions to where configurations prove more."""
-        half, best = np.tile(self._width / _TYPICAL, (len(self.q), 1)), np.full(len(self.q), -1.0)
+    def _climbed(self, q: Array, targets: Array, until: float) -> Array:
+        """Moved along self-motions to where configurations prove more."""
+        q, half, best = q.copy(), np.tile(self._width / _TYPICAL, (len(q), 1)), np.full(len(q), -1.0)
         for k in range(1 + _CLIMB * self._reach.redundant):
             if monotonic() > until:
                 break
-            q = self._reach.solved(stepped(self._reach, self.q, self._rng), self._at) if k else self.q
-            size = Form.at(self._reach, q, self._at).scale(half)
+            other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
+            size = Form.at(self._reach, other, targets).scale(half)
             better = size > best
-            self.q[better], best[better] = q[better], size[better]
+            q[better], best[better] = other[better], size[better]
+        return q
 
     def add(self, centre: Array, q: Array) -> None:
         """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""
@@ -85,17 +94,21 @@ class Pool:
         nearest = np.asarray(self._near.query(centre / self._unit, k=np.arange(1, count + 1), p=np.inf)[1])
         return np.asarray(self._all[nearest])
 
-    def estimate(self) -> float:
-        """Cells that the whole would take, from how much of it single configurations prove."""
+    def _estimate(self) -> float:
+        """The median over some of these of 2 to the halvings until one proves its cell."""
         if not len(self.q):
             return float("inf")
-        some = self._rng.permutation(len(self.q))[:_TARGETS]
-        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024.
-        form, half = Form.at(self._reach, self.q[some], self._at[some]), self._width / 2
-        sizes = np.array([2.0**-k for k in range(11)])
-        best = np.full(len(some), sizes[-1] / 2)
-        for size in sizes[::-1]:
-            good, _ = form.proved(np.broadcast_to(half * size, (len(some), len(half))))
-            best = np.where(good, size, best)
-        axes = int((self._width > 0).sum())
-        return float(np.median(1 / best) ** axes)
+        some = self._rng.permutation(len(self.q))[:_ASKED]
+        form, half = (
+            Form.at(self._reach, self.q[some], self._at[some, : self._reach.axes]),
+            np.tile(self._width / 2, (len(some), 1)),
+        )
+        halvings, may = np.zeros(len(some)), np.broadcast_to(self._width > 0, half.shape)
+        for _ in range(_ENOUGH):
+            left = np.flatnonzero(~form.proved(half)[0])
+            if not left.size:
+                break
+            halvings[left] += 1
+            half[left, form.take(left).worst_axis(half[left], may[left])] /= 2
+        some_do = halvings[halvings < _ENOUGH]  # a configuration at a limit proves nothing, however small the cell
+        return float(2 ** np.median(some_do)) if some_do.size else float("inf")

@@ -50,8 +50,9 @@ class _Part:
         began = perf_counter()
         self.claim, self.closed, self.finished = claim, 0.0, False
         root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
-        self._search = Search(Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed, until)
-        cells = self._search.pool.estimate() if monotonic() < until else 0.0
+        reach = Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits, claim.rotation)
+        self._search = Search(reach, root, halvings, seed, until)
+        cells = self._search.pool.cells
         if verifier.MOST_LEAVES < cells < np.inf:
             raise InputError(
                 f"single configurations prove so little of this box that it would take some {cells:.0e} cells; "

@@ -21,7 +21,7 @@ Tell = Callable[[float], None]
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _STEPS = 6  # along self-motions
 _AT_ONCE = 512
-_LOST = 1e6  # m: the error where the arm is singular
+_LEAST_TURN = 1e-3  # rad: a tool turned away by less may come to its target
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
 _LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
 
@@ -108,9 +108,10 @@ class Search:
             self.tree.prove(int(cells.name[k]), places[k])
         self.pool.add(centre[found], q[found])
         # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
-        off = self.reach.missed(q, centre[:, : self.reach.m])
-        turn = half[:, self.reach.m :].sum(axis=1) * self.reach.lengths.sum()
-        lost = off > 2 * (np.linalg.norm(half[:, : self.reach.m], axis=1) + turn)
+        away, turned = self.reach.missed(q, centre[:, : self.reach.axes]).T
+        turn = half[:, self.reach.axes :].sum(axis=1)
+        lost = away > 2 * (np.linalg.norm(half[:, : self.reach.linear], axis=1) + turn * self.reach.lengths.sum())
+        lost |= turned > 2 * half[:, self.reach.linear :].sum(axis=1) + _LEAST_TURN
         # Nor in small cells after nothing was proved of as many around each other as there are axes.
         barren = np.where(part > 0, 0, cells.barren + 1)
         axes = int((self.width > 0).sum())
@@ -118,7 +119,8 @@ class Search:
         some = np.flatnonzero(~found & ~smallest & ~lost)
         rest = cells.take(some)
         rest.q, rest.barren = q[some], barren[some]
-        axis = self._worst_axis(rest.q, centre[some], half[some], rest.depth)
+        form = Form.at(self.reach, rest.q, centre[some, : self.reach.axes])
+        axis = form.worst_axis(half[some], (rest.depth < self.halvings) & (self.width > 0))
         self._push(self.tree.halved(rest, axis), np.repeat(part[some], 2))
 
     def _from_pool(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
@@ -148,9 +150,9 @@ class Search:
 
     def _tried(self, q: Array, centre: Array, half: Array) -> tuple[Array, Flags, Array]:
         """Rounded configurations near q (N, n), which of the cells they prove, and how much of the others, by width."""
-        m = self.reach.m
-        q = self._rounded(self.reach.solved(self.reach.placed(q, centre), centre[:, :m]), centre)
-        form = Form.at(self.reach, q, centre[:, :m])
+        targets = centre[:, : self.reach.axes]
+        q = self._rounded(self.reach.solved(self.reach.placed(q, centre), targets), centre)
+        form = Form.at(self.reach, q, targets)
         found, sections = form.proved(half)
         part = found.astype(float)
         rest = np.flatnonzero(~found)
@@ -159,25 +161,10 @@ class Search:
             # The error in the middle may cancel half of the curvature.
             near = rest[part[rest] > 0.5]
             above, below, _ = form.take(near).sides(half[near], sections[near])
-            moved = self._rounded(self.reach.solved(q[near], centre[near, :m] - (above - below) / 2, 3), centre[near])
-            good, _ = Form.at(self.reach, moved, centre[near, :m]).proved(half[near])
+            moved = self._rounded(self.reach.solved(q[near], targets[near], 3, (below - above) / 2), centre[near])
+            good, _ = Form.at(self.reach, moved, targets[near]).proved(half[near])
             q[near[good]], found[near[good]], part[near[good]] = moved[good], True, 1.0
         return q, found, part
 
     def _rounded(self, q: Array, centre: Array) -> Array:
         return self.reach.placed(np.round(q / UNIT) * UNIT, centre)
-
-    def _worst_axis(self, q: Array, centre: Array, half: Array, depth: Index) -> Index:
-        """The axis of each cell (N,) whose halving leaves least error and least beyond the limits."""
-        form = Form.at(self.reach, q, centre[:, : self.reach.m])
-        low, high = self.reach.limits.T
-        price = np.full(half.shape, np.inf)
-        for axis in np.flatnonzero(self.width > 0):
-            narrow = half.copy()
-            narrow[:, axis] /= 2
-            above, below, _ = form.sides(narrow, np.zeros((len(q), self.reach.m)))
-            e = np.nan_to_num(np.maximum(above, below), nan=_LOST)
-            _, _, far = form.sides(narrow, np.maximum(e, 0))
-            beyond = np.maximum(np.maximum(low - (q - far), q + far - high), 0) * self.reach.free
-            price[:, axis] = np.where(depth[:, axis] < self.halvings, e.sum(axis=1) + beyond.sum(axis=1), np.inf)
-        return np.asarray(np.where(np.isfinite(price).any(axis=1), price.argmin(axis=1), 0), dtype=np.int64)

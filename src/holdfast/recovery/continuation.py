@@ -118,8 +118,14 @@ def rest_of_path(
         graph = through_layers(solver, space, metric, poses, first, at, starts, rng)
         furthest = max(furthest, float(share[graph.last]))
         made, motions = replace(made, furthest=furthest, graph=graph.size), graph.motions
-    if motions:
-        return along(made, solver, path, motions[0]), motions
+    return (along(made, solver, path, motions[0]) if motions else made), motions
+
+
+def without_rows(
+    made: RestOfPath, solver: RowSolver, space: Space, path: Path, at: Array, rng: np.random.Generator
+) -> tuple[RestOfPath, list[Array]]:
+    """The same path with as few rows given up as possible, and the motion (S, n) for that, if there is one."""
+    poses = path.pose(made.share)
     for size in range(1, solver.rows.m):
         sets = [] if space.spent else subsets(solver.rows.m, size, [])
         best = _without(solver, space, poses, at, sets, rng) if sets else None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 
 import holdfast as hf
@@ -42,6 +43,22 @@ LimitOption = Annotated[
     list[str] | None,
     typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
 ]
+RotationOption = Annotated[
+    str | None,
+    typer.Option(
+        "--rotation",
+        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll). Default: it may be any.",
+        show_default=False,
+    ),
+]
+TurnsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--rotation-size",
+        help="Edges of a box of roll, pitch and yaw around --rotation, rad: one number, or three. Default: none.",
+        show_default=False,
+    ),
+]
 AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")]
 HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
 TimeOption = Annotated[
@@ -67,6 +84,8 @@ def reach(
     arm: ArmArgument,
     box: BoxOption,
     size: SizeOption,
+    rotation: RotationOption = None,
+    rotation_size: TurnsOption = None,
     lock: LockOption = None,
     limit: LimitOption = None,
     degrees: AnglesOption = False,
@@ -92,6 +111,7 @@ def reach(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
+        **_turned(rotation, rotation_size, degrees),
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
@@ -139,6 +159,8 @@ def tolerant(
     arm: ArmArgument,
     box: BoxOption,
     size: SizeOption,
+    rotation: RotationOption = None,
+    rotation_size: TurnsOption = None,
     ranges: Annotated[
         Path | None,
         typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad.", show_default=False),
@@ -178,6 +200,7 @@ def tolerant(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
+        **_turned(rotation, rotation_size, degrees),
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
@@ -320,6 +343,25 @@ def show(file: FileArgument) -> None:
     volumes = document["volumes"]
     typer.echo(document["claim"])
     typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
+
+
+def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:
+    """--rotation and --rotation-size, as a claim takes them."""
+    from holdfast.arm.urdf import rpy_rotation
+
+    if rotation is None:
+        if size is not None:
+            raise InputError("--rotation-size is the box around --rotation; give that, too")
+        return {}
+    angles, edges = (
+        read_numbers(*option, "roll, pitch and yaw") for option in (("--rotation", rotation), ("--rotation-size", size or "0"))
+    )
+    if angles.size != 3 or edges.size not in (1, 3) or not (edges >= 0).all():
+        raise InputError("--rotation takes roll, pitch and yaw; --rotation-size one number or three, not negative")
+    turn = np.pi / 180 if degrees else 1.0
+    if not edges.any():
+        return {"rotation": rpy_rotation((turn * angles).tolist())}
+    return {"rpy": turn * np.column_stack([angles - edges / 2, angles + edges / 2])}
 
 
 def _ranges_of(file: Path) -> list[str]:
