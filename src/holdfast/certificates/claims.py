@@ -329,6 +329,47 @@ def ceiling_claim(
     return CeilingClaim(arm=arm, task=task, joint_box=box, threshold=float(threshold), locks=locks)
 
 
+@dataclass(frozen=True, kw_only=True)
+class StructuralZeroClaim:
+    """Wherever the arm is, a lock of one joint costs all relative manipulability of the pose: axes say so, not angles.
+
+    Attributes:
+        arm: The arm, all of whose joints turn.
+        locked: Index of the joint.
+        tolerance: m, by which its geometry may miss exact ones.
+    """
+
+    arm: Arm
+    locked: int
+    tolerance: float
+
+    @property
+    def task(self) -> str:
+        """All six rows."""
+        return "pose"
+
+
+@checked
+def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5) -> StructuralZeroClaim:
+    """The claim that the axes before a joint meet in one point, and those behind it in another: that its lock costs everything.
+
+    Args:
+        arm: The arm; all of its joints must turn.
+        joint: Between others, by name or index from 0.
+        tolerance: m, by which the frames of the file may miss those of an arm of which it is true exactly.
+
+    Raises:
+        InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
+    """
+    _need_turning(arm)
+    which = arm.joint_index(joint)
+    if not 1 <= which <= arm.n - 2:
+        raise InputError(f"{arm.joint_names[which]} is not between other joints, and only these can have a structural zero")
+    if not 0 <= tolerance <= 1e-3:
+        raise InputError(f"tolerance is {tolerance}; it must be from 0 to 0.001 m")
+    return StructuralZeroClaim(arm=arm, locked=which, tolerance=float(tolerance))
+
+
 def _need_flat(arm: Arm, what: str) -> None:
     turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
     if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):

@@ -1,4 +1,4 @@
-"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling. ``holdfast certificate``: check, show."""
+"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling, structural-zero. ``holdfast certificate``: check, show."""
 
 from __future__ import annotations
 
@@ -261,6 +261,33 @@ def ceiling(
         task=task,
     )
     _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command("structural-zero")
+def structural_zero(
+    arm: ArmArgument,
+    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Between a shoulder and a wrist.", show_default=False)],
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("structural-zero.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that a lock of a joint between a spherical shoulder and a spherical wrist costs everything, wherever the arm is.
+
+    Proved exactly, of an arm whose geometry is that of the file but for rounded digits, and by how much it differs is
+    printed. The exit code is 0 if it is proved, 3 if axes do not meet.
+
+    Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
+    """
+    model = read_arm(arm, base, tip, hold)
+    proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
+    if not proof.ok:
+        printed(proof, json_)
+        raise typer.Exit(NOT_MET)
+    file = proof.write(out)
+    printed(hf.check_certificate(file) if check else proof, json_, [file])
 
 
 def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> None:
