@@ -22,6 +22,7 @@ OTHERS = {
     ),
     "assess": "asks of each joint alone, as if it locked: nothing is known to have failed",
     "CertificateCheck": "a result: a name",
+    "StructuralZeroClaim": "an index: whichever angle it locks at",
     "Degraded": "is itself",
     "StationaryPoints": "a result, of indices",
     "is_stuck": "a matrix, not an arm: indices of its columns",

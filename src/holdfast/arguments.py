@@ -199,6 +199,7 @@ _CLASSES = (
         "ReachClaim",
         "Region",
         "Servos",
+        "StructuralZeroClaim",
         "Task",
         "TimedPath",
         "TolerantClaim",

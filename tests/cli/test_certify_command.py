@@ -108,3 +108,13 @@ def test_a_ceiling(cli, tmp_path):
     )
     assert code == 3
     assert len(json.loads(out)["best"]) == 7
+
+
+def test_a_structural_zero(cli, tmp_path):
+    words = ["certify", "structural-zero", "--out", str(tmp_path / "a.certificate")]
+    code, out, _ = cli(*words, "iiwa14", "lbr_iiwa_joint_4")
+    assert code == 0
+    assert "a lock of lbr_iiwa_joint_4 is 0" in " ".join(out.split())
+    code, out, _ = cli(*words, "panda", "panda_joint4", "--json")
+    assert code == 3
+    assert json.loads(out)["proved"] is False

@@ -100,6 +100,7 @@ MADE = {
     "Runs": found(lambda: hf.simulate(law(), X, TARGET, locked={"joint2": None})),
     "SelfMotion": found(lambda: hf.self_motion(arm(), TARGET, "planar", starts=4)),
     "StationaryPoints": found(lambda: hf.stationary_points(law(), TARGET, {1: 1.0})),
+    "StructuralZero": found(lambda: hf.certify(hf.certificates.structural_zero_claim(hf.arms.load("iiwa14"), 3))),
     "Task": lambda: index().task,
     "TimedPath": timed,
     "TolerantProof": found(
@@ -115,7 +116,7 @@ MADE = {
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
 WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "TolerantProof"}
-WITHOUT_FIGURE |= {"Ceiling", "Refutation", "WaypointCheck"}
+WITHOUT_FIGURE |= {"Ceiling", "Refutation", "StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

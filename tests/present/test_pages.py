@@ -30,6 +30,7 @@ PARTS = {
     "Configurations",
     "Proof",
     "Refutation",
+    "StructuralZero",
     "TolerantProof",
     "WaypointCheck",
 }  # of a result, without a command that writes their page

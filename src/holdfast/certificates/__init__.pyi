@@ -3,13 +3,16 @@ from holdfast.certificates.checks import check_certificate as check_certificate
 from holdfast.certificates.claims import CeilingClaim as CeilingClaim
 from holdfast.certificates.claims import OutOfReachClaim as OutOfReachClaim
 from holdfast.certificates.claims import ReachClaim as ReachClaim
+from holdfast.certificates.claims import StructuralZeroClaim as StructuralZeroClaim
 from holdfast.certificates.claims import TolerantClaim as TolerantClaim
 from holdfast.certificates.claims import ceiling_claim as ceiling_claim
 from holdfast.certificates.claims import out_of_reach_claim as out_of_reach_claim
 from holdfast.certificates.claims import reach_claim as reach_claim
+from holdfast.certificates.claims import structural_zero_claim as structural_zero_claim
 from holdfast.certificates.claims import tolerant_claim as tolerant_claim
 from holdfast.certificates.joint_boxes.ceilings import Ceiling as Ceiling
 from holdfast.certificates.joint_boxes.refutations import Refutation as Refutation
 from holdfast.certificates.proof import Proof as Proof
 from holdfast.certificates.proof import TolerantProof as TolerantProof
 from holdfast.certificates.prover import certify as certify
+from holdfast.certificates.structure import StructuralZero as StructuralZero

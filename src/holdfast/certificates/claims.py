@@ -27,14 +27,14 @@ class ReachClaim:
     """For every target of a box, and every value at which one joint may be locked, a configuration within limits reaches it.
 
     Attributes:
-        arm: The arm, all of whose joints turn.
+        arm: The arm.
         task: ``position``, ``planar`` or ``pose``.
         box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m; (6, 2) where the tool is
             turned as well: its roll, pitch and yaw, rad, the rotation Rz(yaw) Ry(pitch) Rx(roll).
         rotation: (3, 3) of the tool at every target; None where it is free, or turned.
         locked: Index of the locked joint; -1: the arm is healthy.
-        angle: (2,) rad, between which it may be locked; None for a healthy arm.
-        limits: (n, 2) rad, within which the configuration is.
+        angle: (2,) rad or m, between which it may be locked; None for a healthy arm.
+        limits: (n, 2) rad and m, within which the configuration is.
     """
 
     arm: Arm
@@ -52,7 +52,7 @@ class TolerantClaim:
 
     Attributes:
         arm, task, box, rotation: As of :class:`ReachClaim`.
-        working_ranges: (n, 2) rad, within which the healthy arm is kept, and so a joint when it locks.
+        working_ranges: (n, 2) rad and m, within which the healthy arm is kept, and so a joint when it locks.
         locks: Indices of the joints that may lock, one at a time, in order. After it the arm's own limits hold.
     """
 
@@ -86,17 +86,17 @@ def reach_claim(
     """The claim that every point of a box is reached, by the healthy arm or after a lock at any angle of an interval.
 
     Args:
-        arm: The arm; all of its joints must turn.
+        arm: The arm.
         centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
         size: Its edges, m: one number, or one along each axis; 0: none.
         rotation: (3, 3) of the tool in the base frame, at every target; None: it may turn as it likes.
         rpy: (3, 2) lowest and highest roll, pitch and yaw of the tool, rad, all of which are targets: the rotations
             Rz(yaw) Ry(pitch) Rx(roll).
-        locked: ``{joint: (low, high)}``, rad, a single joint; None: the arm is healthy.
-        limits: ``{joint: (low, high)}``, rad, that the configurations keep, narrower than the arm's own: working ranges.
+        locked: ``{joint: (low, high)}``, rad or m, a single joint; None: the arm is healthy.
+        limits: ``{joint: (low, high)}``, rad or m, that the configurations keep, narrower than the arm's own: working ranges.
 
     Raises:
-        InputError: A box, joint, angle or limit that makes no claim, or an arm with slides.
+        InputError: A box, joint, angle or limit that makes no claim.
     """
     box, task, turned = _targets(arm, centre, size, rotation, rpy)
     kept = np.column_stack([arm.lower, arm.upper])
@@ -133,17 +133,17 @@ def tolerant_claim(
     its limits.
 
     Args:
-        arm: The arm; all of its joints must turn.
+        arm: The arm.
         centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
         size: Its edges, m: one number, or one along each axis; 0: none.
         rotation: As of :func:`reach_claim`.
         rpy: Likewise.
-        working_ranges: ``{joint: (low, high)}``, rad, within the limits; of a joint that is not named, its limits.
+        working_ranges: ``{joint: (low, high)}``, rad or m, within the limits; of a joint that is not named, its limits.
         failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
 
     Raises:
-        InputError: A box, joint or range that makes no claim, a joint that may lock anywhere on a full circle without a
-            working range, or an arm with slides.
+        InputError: A box, joint or range that makes no claim, or a joint without limits that may lock and has no working
+            range.
         TaskError: No failure, or one of several joints at once.
 
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
@@ -191,7 +191,6 @@ def _box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
     edges = np.broadcast_to(np.asarray(size, dtype=np.float64), middle.shape) if np.size(size) in (1, len(middle)) else None
     if edges is None or not np.isfinite(edges).all() or (edges < 0).any() or not (edges > 0).any():
         raise InputError(f"the size of the box must be one number or {len(middle)}, m, finite, not negative, not all 0")
-    _need_turning(arm)
     return np.column_stack([middle - edges / 2, middle + edges / 2])
 
 
@@ -205,12 +204,14 @@ def _within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:
     k = arm.joint_index(joint)
     found = np.asarray(pair, dtype=np.float64).reshape(-1)
     if found.shape != (2,) or not np.isfinite(found).all() or found[0] > found[1]:
-        raise InputError(f"the interval of {arm.joint_names[k]} must be two finite angles, rad, the lower one first")
+        values = "lengths, m" if arm.prismatic[k] else "angles, rad"
+        raise InputError(f"the interval of {arm.joint_names[k]} must be two finite {values}, the lower one first")
     if found[0] < arm.lower[k] or found[1] > arm.upper[k]:
-        least, most = np.rad2deg([arm.lower[k], arm.upper[k]])
-        low, high = np.rad2deg(found)
+        factor, unit = arm.joints[k].shown
+        low, high, least, most = (factor * x for x in (*found, arm.lower[k], arm.upper[k]))
         raise InputError(
-            f"{arm.joint_names[k]} from {low:.4g} to {high:.4g} deg is outside of its limits, {least:.4g} to {most:.4g} deg"
+            f"{arm.joint_names[k]} from {low:.4g} to {high:.4g} {unit} is outside of its limits, "
+            f"{least:.4g} to {most:.4g} {unit}"
         )
     return found
 
@@ -248,6 +249,7 @@ def out_of_reach_claim(
         InputError: A box, joint, angle or limit that makes no claim, an arm with slides, or two coordinates for an arm that
             does not move in a plane.
     """
+    _need_turning(arm)
     same = reach_claim(arm, centre, size, locked=locked, limits=limits)
     if same.task == "planar":
         _need_flat(arm, "a box of two coordinates is")
@@ -325,6 +327,47 @@ def ceiling_claim(
     if threshold >= most:
         raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: nothing to prove")
     return CeilingClaim(arm=arm, task=task, joint_box=box, threshold=float(threshold), locks=locks)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StructuralZeroClaim:
+    """Wherever the arm is, a lock of one joint costs all relative manipulability of the pose: axes say so, not angles.
+
+    Attributes:
+        arm: The arm, all of whose joints turn.
+        locked: Index of the joint.
+        tolerance: m, by which its geometry may miss exact ones.
+    """
+
+    arm: Arm
+    locked: int
+    tolerance: float
+
+    @property
+    def task(self) -> str:
+        """All six rows."""
+        return "pose"
+
+
+@checked
+def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5) -> StructuralZeroClaim:
+    """The claim that the axes before a joint meet in one point, and those behind it in another: that its lock costs everything.
+
+    Args:
+        arm: The arm; all of its joints must turn.
+        joint: Between others, by name or index from 0.
+        tolerance: m, by which the frames of the file may miss those of an arm of which it is true exactly.
+
+    Raises:
+        InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
+    """
+    _need_turning(arm)
+    which = arm.joint_index(joint)
+    if not 1 <= which <= arm.n - 2:
+        raise InputError(f"{arm.joint_names[which]} is not between other joints, and only these can have a structural zero")
+    if not 0 <= tolerance <= 1e-3:
+        raise InputError(f"tolerance is {tolerance}; it must be from 0 to 0.001 m")
+    return StructuralZeroClaim(arm=arm, locked=which, tolerance=float(tolerance))
 
 
 def _need_flat(arm: Arm, what: str) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import CeilingClaim, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.claims import CeilingClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.taylor import UNIT, Chain
@@ -104,6 +104,12 @@ def ceiling(claim: CeilingClaim, tree: Halving, best: NDArray[np.float64], *, se
     )
 
 
+def structural_zero(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
+    """The certificate of a structural zero: frames and points on axes, as exact fractions."""
+    kept = {"locked": claim.locked, "snapped": snapped, "points": points, "volumes": _volumes(Fraction(0))}
+    return _signed(_common("structural-zero", claim, 0.0, len(points)) | kept)
+
+
 def _volumes(undecided: Fraction) -> Document:
     parts = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
     return {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()}
@@ -116,7 +122,10 @@ def undecided(document: Document) -> list[verifier.Cell]:
 
 
 def _common(
-    kind: str, claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim, seconds: float, nodes: int
+    kind: str,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim | StructuralZeroClaim,
+    seconds: float,
+    nodes: int,
 ) -> Document:
     made = {
         "format": "holdfast-certificate",
@@ -130,7 +139,7 @@ def _common(
         "seconds": seconds,
         "nodes": nodes,
     }
-    if isinstance(claim, CeilingClaim):
+    if isinstance(claim, CeilingClaim | StructuralZeroClaim):
         return made
     return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
 
@@ -153,8 +162,11 @@ def _stored(arm: Arm) -> Document:
         {"rotation": _hexes(turn.ravel()), "origin": _hexes(place)}
         for turn, place in zip(chain.rotations, chain.origins, strict=True)
     ]
-    joints = zip(arm.joint_names, frames, limits, strict=False)
-    stored = [{"name": name, "type": "revolute", **frame, "limits": _hexes(pair)} for name, frame, pair in joints]
+    joints = zip(arm.joints, frames, limits, strict=False)
+    stored = [
+        {"name": joint.name, "type": "prismatic" if joint.prismatic else "revolute", **frame, "limits": _hexes(pair)}
+        for joint, frame, pair in joints
+    ]
     return {"joints": stored, "tool": frames[-1]}
 
 

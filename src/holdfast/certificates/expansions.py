@@ -30,17 +30,18 @@ class Expansion:
     the coordinates of its point; with six rows the three angles by which targets turn, or nine numbers of a rotation. A form
     is what of the Taylor form counts: the error (m,); ``|B|`` (n, m), by how much joints follow the section, and the point of
     the target with it; ``|L|`` (n, t + 1), how they follow the t angles and the locked joint; second derivatives by pairs of
-    these m + t + 1 coordinates (m, pairs).
+    these m + t + 1 coordinates (m, pairs); and how far slides are out, (n,) m.
 
     Args:
         arm: The arm.
         m: Rows: 2, 3 or 6.
         turning: t: 3 where targets turn, else 0.
         lengths: (n,) m, of what each joint and those before it turn, see :class:`holdfast.certificates.taylor.Chain`.
+        slides: (n,) which joints slide.
     """
 
-    def __init__(self, arm: Arm, m: int, turning: int, lengths: Array) -> None:
-        self.arm, self.m, self.turning, self.lengths = arm, m, turning, lengths
+    def __init__(self, arm: Arm, m: int, turning: int, lengths: Array, slides: NDArray[np.bool_]) -> None:
+        self.arm, self.m, self.turning, self.lengths, self.slides = arm, m, turning, lengths, slides
         self.linear = min(m, 3)  # rows of the point
         self.axes = self.linear + turning  # of a target
         self.coordinates = m + turning + 1
@@ -114,36 +115,40 @@ class Expansion:
     @cached_property
     @recalled
     def form(self) -> Kernel:
-        """Joints, target, free and locked joints -> the form."""
+        """Joints, target, free and locked joints, how far a locked slide is out at most -> the form."""
         (q, target, free), n, t = self._inputs, self.arm.n, self.turning
-        locked = ca.SX.sym("locked", n)
+        locked, held = ca.SX.sym("locked", n), ca.SX.sym("held", n)
         error, slopes, hessians = self._expanded(q, target)
         inverse = self._inverse(slopes[:, :n], free)
         follow = ca.horzcat(-inverse @ slopes[:, n:], locked - inverse @ (slopes[:, :n] @ locked))
         d = ca.vertcat(ca.horzcat(inverse, follow), ca.horzcat(ca.SX(t, self.m), ca.SX.eye(t), ca.SX(t, 1)))
         forms = [d.T @ hessian @ d for hessian in hessians]
         by_pair = ca.vertcat(*[ca.horzcat(*[form[a, b] for a, b in self.pairs]) for form in forms])
-        out = [error, ca.fabs(inverse), ca.fabs(follow), by_pair]
-        return Kernel("Taylor form of a reach", [q, target, free, locked], [ca.densify(x) for x in out])
+        out = [error, ca.fabs(inverse), ca.fabs(follow), by_pair, ca.fmax(ca.fabs(q), held) * self.slides.astype(float)]
+        return Kernel("Taylor form of a reach", [q, target, free, locked, held], [ca.densify(x) for x in out])
 
     # ---- bounds ------------------------------------------------------------------------------------------------
 
     @property
     def _form(self) -> SX:
-        return ca.SX.sym("form", self.m * (1 + len(self.pairs)) + self.arm.n * self.coordinates)
+        return ca.SX.sym("form", self.m * (1 + len(self.pairs)) + self.arm.n * (self.coordinates + 1))
 
     def _sides(self, form: SX, cell: SX, section: SX) -> tuple[SX, SX, SX, SX]:
         m, n, t, linear = self.m, self.arm.n, self.turning, self.linear
-        sizes = [0, m, m * n, (t + 1) * n, m * len(self.pairs)]
-        error, inverse, follow, second = ca.vertsplit(form, np.cumsum(sizes).tolist())
+        sizes = [0, m, m * n, (t + 1) * n, m * len(self.pairs), n]
+        error, inverse, follow, second, out = ca.vertsplit(form, np.cumsum(sizes).tolist())
         targets = ca.vertcat(cell[:linear], ca.SX(m - linear, 1))  # what follows the target as it does the section
         wide = ca.vertcat(targets + section, cell[linear:])
         far = ca.reshape(inverse, m, n).T @ wide[:m] + ca.reshape(follow, t + 1, n).T @ wide[m:]
         second = ca.reshape(second, len(self.pairs), m).T
         rest, c = ca.SX(0), ca.SX(0)
         for k in range(n):
-            c += far[k]
-            rest += float(self.lengths[k]) / 6 * c * c * c
+            length = float(self.lengths[k])
+            if self.slides[k]:
+                rest += (c * c * c * (length + out[k] + far[k]) + 3 * c * c * far[k]) / 6
+            else:
+                c += far[k]
+                rest += length / 6 * c * c * c
         for k in range(t):
             c += cell[linear + k]
         above, below = [], []

@@ -58,7 +58,7 @@ class Pool:
         reach = self._reach
         drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
         at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < until else 0]
-        low, high = np.clip(reach.limits.T, -np.pi, np.pi)
+        low, high = reach.spans.T
         q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
         q = reach.solved(q, at[:, : reach.axes], 40)
         met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)

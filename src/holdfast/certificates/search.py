@@ -110,7 +110,7 @@ class Search:
         # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
         away, turned = self.reach.missed(q, centre[:, : self.reach.axes]).T
         turn = half[:, self.reach.axes :].sum(axis=1)
-        lost = away > 2 * (np.linalg.norm(half[:, : self.reach.linear], axis=1) + turn * self.reach.lengths.sum())
+        lost = away > 2 * (np.linalg.norm(half[:, : self.reach.linear], axis=1) + turn * self.reach.swing)
         lost |= turned > 2 * half[:, self.reach.linear :].sum(axis=1) + _LEAST_TURN
         # Nor in small cells after nothing was proved of as many around each other as there are axes.
         barren = np.where(part > 0, 0, cells.barren + 1)

@@ -24,17 +24,18 @@ UNIT = 2.0**-24  # rad: centres are written in multiples of it
 _ROUNDS = 30  # of the section box, each a little wider than what the one before needs
 _HALVINGS = 4
 _LOST = 1e6  # m: the error where the arm is singular
-_NEVER = 1e6  # rad, for a limit that is not there
+_NEVER = 1e6  # rad or m, for a limit that is not there
+_FAR = 5.0  # m: a slide without limits is not tried beyond
 
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """Revolute joints about the z axes of their frames, as a certificate writes them.
+    """Joints about or along the z axes of their frames, as a certificate writes them.
 
     Attributes:
         rotations: (n + 1, 3, 3) of each joint's frame in the one before, the tool's last.
         origins: (n + 1, 3) likewise, m.
-        lengths: (n,) m, of what joint k and those before it turn and joint k + 1 does not.
+        lengths: (n,) m, of what joint k and those before it turn and joint k + 1 does not; of a slide without its value.
     """
 
     rotations: Array
@@ -54,10 +55,10 @@ class Chain:
         frames[0] = arm.base @ frames[0]
         frames.append(back @ arm.tool)
         rotations, origins = np.array([f[:3, :3] for f in frames]), np.array([f[:3, 3] for f in frames])
-        links = []
+        links, slides = [], [*arm.prismatic, True]
         for k in range(arm.n):
-            link = origins[k + 1] * [1, 1, 0]
-            if k + 1 < arm.n:
+            link = origins[k + 1] * [1, 1, slides[k]]
+            if not slides[k + 1]:
                 link = link + rotations[k + 1] @ [0, 0, origins[k + 2][2]]
             links.append(float(np.linalg.norm(link)))
         return cls(rotations, origins, np.array(links))
@@ -72,26 +73,41 @@ class Reach:
         locked: Index of the locked joint; -1: none.
         limits: (n, 2) rad.
         rotation: (3, 3) of the tool, for 6 rows; None: the last three numbers of a target are roll, pitch and yaw.
+        angle: (2,) where the joint may be locked, rad or m; of a joint that turns it does not matter.
 
     Attributes:
         axes: Numbers of a target: 2 or 3 coordinates, m, then roll, pitch and yaw, rad, if targets turn.
         linear: So many of them are coordinates.
+        slides: (n,) which joints slide.
     """
 
-    def __init__(self, arm: Arm, m: int, locked: int, limits: Array, rotation: Array | None = None) -> None:
+    def __init__(
+        self, arm: Arm, m: int, locked: int, limits: Array, rotation: Array | None = None, angle: Array | None = None
+    ) -> None:
         self.arm, self.m, self.locked, self.limits = arm, m, locked, limits
         self.n = arm.n
         self.free = np.arange(self.n) != locked
-        self.expansion = Expansion(arm, m, 3 if m == 6 and rotation is None else 0, Chain.of(arm).lengths)
+        self.slides = arm.prismatic
+        self.expansion = Expansion(arm, m, 3 if m == 6 and rotation is None else 0, Chain.of(arm).lengths, self.slides)
         self.axes, self.linear = self.expansion.axes, self.expansion.linear
         self._rotation = np.empty(0) if rotation is None else np.asarray(rotation).ravel()
         self._free, self._at = self.free.astype(float), (~self.free).astype(float)
+        held = 0.0 if angle is None else float(np.abs(angle).max())
+        self._held = self.slides * ~self.free * held
         self._limits = np.clip(limits.T, -_NEVER, _NEVER)
 
     @property
-    def lengths(self) -> Array:
-        """(n,) m, by which a joint moves the tool at most where it alone turns, and more."""
-        return self.expansion.lengths
+    def swing(self) -> float:
+        """By how many m the locked joint moves the tool at most, for each rad or m."""
+        if self.slides[self.locked]:
+            return 1.0
+        return float(self.expansion.lengths.sum() + np.abs(self.spans[self.slides]).max(axis=1).sum())
+
+    @property
+    def spans(self) -> Array:
+        """(n, 2) rad and m, limits where there are any, and all that is worth a try where there are none."""
+        most = np.where(self.slides, _FAR, np.pi)[:, None]
+        return np.clip(self.limits, -most, most)
 
     @property
     def redundant(self) -> bool:
@@ -143,7 +159,7 @@ class Form:
     @classmethod
     def at(cls, reach: Reach, q: Array, targets: Array) -> Form:
         """Around q (N, n) for targets (N, axes) in the middle."""
-        return cls(reach, q, reach.expansion.form.rows(q, reach.given(targets), reach._free, reach._at))
+        return cls(reach, q, reach.expansion.form.rows(q, reach.given(targets), reach._free, reach._at, reach._held))
 
     @property
     def error(self) -> Array:

@@ -12,6 +12,9 @@ Distances are bounded by exact derivatives at the centre, in arrays of balls, an
 A ceiling of relative manipulability is a tree over joints. With the moments a_l of any wrench about the axes, it is at most
 sqrt(A / (A + a_k^2)) after a lock of joint k, A the sum of the other a_l^2. In each leaf a wrench that is affine in the joints
 shows this, and one k. As its axes are seen from a link in the middle of the arm, first and last joint count nothing.
+
+A structural zero holds where all axes before a joint meet in one point, and all behind it in another: a force along the line
+through both has no moment about any other axis, so A = 0 (or the arm is singular). It is checked in rationals.
 """
 
 from __future__ import annotations
@@ -56,11 +59,12 @@ UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative d
 SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [0, 1, 5]}  # rows of a ceiling
 ROWS = {"planar xy": 2, "position xyz": 3, "pose xyz": 6, "pose xyzRPY": 6}  # by task and axes of the target
 NUMBER, TEXT, HASH = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
+WHOLE, RATIONAL = r"-?\d{1,40}", r"-?\d{1,60}/[1-9]\d{0,60}"
 LIMITS, FRAME = [f"{NUMBER}|-?inf", 2], {"rotation": [NUMBER, 9], "origin": [NUMBER, 3]}
 ARM = {"joints": [{"name": TEXT, "type": "revolute|prismatic", "limits": LIMITS, **FRAME}, ...], "tool": FRAME}
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
 VOLUMES = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-KINDS = "reach|bundle|refutation|ceiling"
+KINDS = "reach|bundle|refutation|ceiling|structural-zero"
 COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KINDS, "arm": ARM}
 COMMON |= {"arm_digest": HASH, "source": ..., "claim": TEXT, "task": TEXT, "volumes": VOLUMES, "digest": HASH, **FOR_PEOPLE}
 real = float.fromhex
@@ -114,6 +118,10 @@ def sentence(document: dict[str, Any]) -> str:
         return ", ".join(f"{name} {' to '.join(repr(real(x)) for x in pair)}" for name, pair in zip(names, pairs, strict=True))
 
     names = [joint["name"] for joint in document["arm"]["joints"]]
+    if document["kind"] == "structural-zero":
+        near = "{} rad and {} m".format(*(f"{_two_digits(Fraction(x), True):g}" if x else "0" for x in snap(document)))
+        text = f"For every configuration of an arm whose frames are within {near} of the file's, relative manipulability of the"
+        return f"{text} pose after a lock of {names[document['locked']]} is 0; arm {document['arm_digest'][:12]}."
     if document["kind"] == "ceiling":
         least = f"the least relative manipulability of the {document['task']} after a lock of one of "
         least += f"{', '.join(names[k] for k in document['locks'])} is at most {real(document['threshold'])!r}"
@@ -176,10 +184,16 @@ def _check(document: dict[str, Any]) -> None:
                         "best": [NUMBER, n], **COMMON}, "the certificate")  # fmt: skip
         _within(document["joint_box"], [joint["limits"] for joint in joints], "joint_box")
         need(1e-6 <= real(document["threshold"]) < 1, "threshold must be from 1e-6 to 1")
+    elif document["kind"] == "structural-zero":
+        snapped = [{"rotation": [WHOLE, 4], "origin": [RATIONAL, 3]}, n]
+        need(n > 2 and turning, "structural zeros are of joints that turn")
+        _fit(document, {"locked": range(1, n - 1), "snapped": snapped, "points": [RATIONAL, n], **COMMON}, "the certificate")
+        need(document["task"] == "pose", "structural zeros are of the pose")
+        need(all(any(int(x) for x in frame["rotation"]) for frame in document["snapped"]), "a quaternion is 0")
     else:
         _check_targets(document, joints, target, locks, axes, turning)
     need(
-        document["kind"] in ("reach", "refutation") or (locks and locks == sorted(set(locks))),
+        document["kind"] not in ("bundle", "ceiling") or (locks and locks == sorted(set(locks))),
         "locks must be in order, each once",
     )
     for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
@@ -311,7 +325,8 @@ class Leaves:
         self.slides = np.array([joint["type"] == "prismatic" for joint in joints])
         ends = [*target["box"], *([document["angle"]] if self.locked >= 0 else [])]
         self.low, high = ([flint.fmpq(*real(pair[end]).as_integer_ratio()) for pair in ends] for end in (0, 1))
-        self.angle = max((abs(real(x)) for x in document["angle"] or ()), default=0.0)  # of the locked joint, largest
+        # How far a locked slide is out, at most.
+        self.out = max((abs(real(x)) for x in document["angle"] or () if self.slides[self.locked]), default=0.0)
         self.width = [b - a for a, b in zip(self.low, high, strict=True)]
         frames = [*joints, document["arm"]["tool"]]
         self.rotations = [_rotation(frame["rotation"]) for frame in frames]
@@ -402,7 +417,7 @@ class Leaves:
         far = (reach @ w[:, :, None])[:, :, 0] * UP
         angle = np.cumsum(far * np.append(~self.slides, [True] * self.turning), axis=1) * UP
         c, slid = angle[:, : self.n], far[:, : self.n] * self.slides
-        third = (c**3 * (self.lengths + np.maximum(abs(q), self.angle) * self.slides + slid) + 3 * c**2 * slid).sum(axis=1) / 6
+        third = (c**3 * (self.lengths + np.maximum(abs(q), self.out) * self.slides + slid) + 3 * c**2 * slid).sum(axis=1) / 6
         rest = np.stack([third] * self.linear + [angle[:, -1] ** 3 / 6] * (self.m - self.linear), axis=1)
         rest += (slope @ w[:, :, None])[:, :, 0] + ((mixed @ w[:, None, :, None])[..., 0] * w[:, None]).sum(axis=2)
         high, low = ((rest + (x @ w[:, :, None] ** 2)[:, :, 0] / 2) * UP for x in (up, down))
@@ -428,6 +443,46 @@ class Leaves:
         inside = ((low >= self.limits[:, 0]) & (high <= self.limits[:, 1]))[:, self.free].all(axis=1)
         good = closed & inside & ((angle[:, -1] < 1.5) | (self.m < 6))
         return len(chunk), [cell for (cell, _), proved in zip(chunk, good, strict=True) if not proved]
+
+
+def exact_rotation(quaternion: Iterable[int]) -> list[list[Fraction]]:
+    """The rotation of a quaternion (w, x, y, z) of whole numbers, of any length but 0."""
+    w, x, y, z = quaternion
+    rows = [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]]  # fmt: skip
+    return [[Fraction(value, w * w + x * x + y * y + z * z) for value in row] for row in rows]
+
+
+def snap(document: dict[str, Any]) -> tuple[float, float]:
+    """Above the angle, rad, and the distance, m, between frames of a structural zero and those of the file."""
+    turned, shifted = 0.0, 0.0
+    for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
+        exact = [x for row in exact_rotation(map(int, frame["rotation"])) for x in row]
+        off = sum((a - Fraction(real(b))) ** 2 for a, b in zip(exact, joint["rotation"], strict=True))
+        need(off < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
+        # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
+        turned = max(turned, math.sqrt(off) / math.sqrt(2) * 1.0001)
+        far = sum((Fraction(a) - Fraction(real(b))) ** 2 for a, b in zip(frame["origin"], joint["origin"], strict=True))
+        shifted = max(shifted, math.sqrt(far) * UP)
+    return turned, shifted
+
+
+def _structural_zero(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    """Each pair of neighbouring axes before the joint, and each behind it, has the point in common that both name."""
+    began, n, k = time.perf_counter(), len(document["snapped"]), document["locked"]
+    points = [Fraction(x) for x in document["points"]]
+    pairs, good = [i for i in range(1, n) if i not in (k, k + 1)], 0
+    for i in pairs:
+        turn = exact_rotation(map(int, document["snapped"][i]["rotation"]))
+        place = [Fraction(x) + row[2] * points[i] for x, row in zip(document["snapped"][i]["origin"], turn, strict=True)]
+        good += place == [0, 0, points[i - 1]]
+    tell(len(pairs))
+    _agree(document, Fraction(0))
+    return Verdict(
+        document=document, leaves=len(pairs), accepted=good, rejected=len(pairs) - good, seconds=time.perf_counter() - began,
+        undecided=Fraction(int(good < len(pairs))), shadow=frozenset(),
+    )  # fmt: skip
 
 
 class Balls:
@@ -818,7 +873,7 @@ class Verdict:
         text += " in the worst part" * bool(self.parts)
         if self.document["kind"] == "ceiling":
             text += f" of the box; {best}"
-        elif self.document.get("locked") != -1:
+        elif self.document["kind"] != "structural-zero" and self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
@@ -940,9 +995,9 @@ def verify(
     path, tell = Path(path), progress or (lambda size: None)
     document = load(path)
     if document["kind"] != "bundle":
-        return {"reach": _reach, "refutation": _refutation, "ceiling": _ceiling}[document["kind"]](
-            document, sample, workers, tell
-        )
+        return {"reach": _reach, "refutation": _refutation, "ceiling": _ceiling, "structural-zero": _structural_zero}[
+            document["kind"]
+        ](document, sample, workers, tell)
     files, ranges = [load(path.parent / part["file"]) for part in document["parts"]], document["working_ranges"]
     same = {"kind": "reach"} | {key: document[key] for key in ("arm", "task", "target")}
     for part, file, locked in zip(document["parts"], files, [-1, *document["locks"]], strict=True):

@@ -43,6 +43,7 @@ PRESENTERS = {
     "Runs": ("simulation.console", "simulation.run"),
     "SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
     "StationaryPoints": ("equilibria.points", ""),
+    "StructuralZero": ("certificates.console", ""),
     "Study": ("studies.console", "studies.page"),
     "TargetMeasures": ("convergence.targets", "convergence.targets"),
     "Task": ("arm.task", ""),

@@ -1,4 +1,4 @@
-"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling. ``holdfast certificate``: check, show."""
+"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling, structural-zero. ``holdfast certificate``: check, show."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ SizeOption = Annotated[
 ]
 LockOption = Annotated[
     str | None,
-    typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
+    typer.Option("--lock", help="JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy.", show_default=False),
 ]
 LimitOption = Annotated[
     list[str] | None,
-    typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
+    typer.Option("--limit", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again.", show_default=False),
 ]
 RotationOption = Annotated[
     str | None,
@@ -59,7 +59,7 @@ TurnsOption = Annotated[
         show_default=False,
     ),
 ]
-AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")]
+AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees (slides stay in m).")]
 HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
 TimeOption = Annotated[
     float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
@@ -163,13 +163,13 @@ def tolerant(
     rotation_size: TurnsOption = None,
     ranges: Annotated[
         Path | None,
-        typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad.", show_default=False),
+        typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m.", show_default=False),
     ] = None,
     range_: Annotated[
         list[str] | None,
         typer.Option(
             "--range",
-            help="JOINT=LOW..HIGH, rad: a working range. May be given again. Default: the joint's limits.",
+            help="JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits.",
             show_default=False,
         ),
     ] = None,
@@ -261,6 +261,33 @@ def ceiling(
         task=task,
     )
     _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command("structural-zero")
+def structural_zero(
+    arm: ArmArgument,
+    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Between a shoulder and a wrist.", show_default=False)],
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("structural-zero.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that a lock of a joint between a spherical shoulder and a spherical wrist costs everything, wherever the arm is.
+
+    Proved exactly, of an arm whose geometry is that of the file but for rounded digits, and by how much it differs is
+    printed. The exit code is 0 if it is proved, 3 if axes do not meet.
+
+    Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
+    """
+    model = read_arm(arm, base, tip, hold)
+    proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
+    if not proof.ok:
+        printed(proof, json_)
+        raise typer.Exit(NOT_MET)
+    file = proof.write(out)
+    printed(hf.check_certificate(file) if check else proof, json_, [file])
 
 
 def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> None:

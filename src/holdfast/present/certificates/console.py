@@ -10,14 +10,18 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.ceilings import Ceiling
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
+from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.verifier import per_cent
 from holdfast.present.printing import Rows
 
 Found = Proof | TolerantProof | Refutation | Ceiling | CertificateCheck
 
 
-def to_dict(found: Found) -> dict[str, Any]:
+def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
     """Shares as exact fractions and as numbers, cells, seconds; of a failure-tolerant box its parts as well."""
+    if isinstance(found, StructuralZero):
+        said = {"claim": found.describe()[0], "proved": found.ok, "verified": False}
+        return said | {"turned": found.turned, "shifted": found.shifted}
     shares, counts, witness = _shares(found), {"leaves": found.leaves}, dict[str, Any]()
     parts: Mapping[str, Found]
     if isinstance(found, CertificateCheck):
@@ -49,10 +53,12 @@ def _lock(check: CertificateCheck) -> str:
     return check.locked or "healthy"
 
 
-def next_steps(found: Found, name: str) -> list[str]:
+def next_steps(found: Found | StructuralZero, name: str) -> list[str]:
     """What one does with it."""
     if isinstance(found, Proof):
         return [f'hf.check_certificate({name}.write("reach.certificate"))  # by other code']
+    if isinstance(found, StructuralZero):
+        return [f'hf.check_certificate({name}.write("zero.certificate"))  # by other code']
     if isinstance(found, Ceiling):
         return [f'hf.check_certificate({name}.write("ceiling.certificate"))  # by other code']
     if isinstance(found, Refutation):
@@ -62,13 +68,15 @@ def next_steps(found: Found, name: str) -> list[str]:
     return [f"{name}.ok  # every cell was checked and accepted"]
 
 
-def tables(found: Found) -> list[Rows]:
+def tables(found: Found | StructuralZero) -> list[Rows]:
     """Shares and cells; of a failure-tolerant box those of each lock."""
-    return [*_by_lock(found), key_table(found)]
+    return [key_table(found)] if isinstance(found, StructuralZero) else [*_by_lock(found), key_table(found)]
 
 
-def key_table(found: Found) -> Rows:
-    """Shares and cells."""
+def key_table(found: Found | StructuralZero) -> Rows:
+    """Shares and cells; of a structural zero how far the geometry was moved."""
+    if isinstance(found, StructuralZero):
+        return Rows(["", ""], [["frames turned, rad", f"{found.turned:.2g}"], ["frames shifted, m", f"{found.shifted:.2g}"]])
     if isinstance(found, CertificateCheck):
         rows = [
             ["accepted", f"{found.accepted:,}"],
