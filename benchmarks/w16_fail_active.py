@@ -24,7 +24,9 @@ def suite(chosen: argparse.Namespace) -> str:
 
     folder = Path(chosen.suite or tempfile.mkdtemp(prefix="fail-active-"))
     cases = 20 if chosen.quick else chosen.cases
-    found = hf.bench.fail_active(hf.arms.load("panda"), folder, cell=CELL, cases=cases, planners=chosen.planner or PLANNERS)
+    found = hf.bench.fail_active(
+        hf.arms.load("panda"), folder, cell=CELL, cases=cases, tasks=chosen.task, planners=chosen.planner or PLANNERS
+    )
     lines = []
     for s in found.scores:
         feasible, (middle, late) = s.success_of_feasible, np.quantile(s.seconds, [0.5, 0.95])
@@ -81,9 +83,12 @@ def main() -> None:
     parser.add_argument("--suite", help="folder of the suite; a new one if not given")
     parser.add_argument("--cases", type=int, default=CASES, help="of each task that reaches a pose; of the others a tenth")
     parser.add_argument("--planner", action="append", help="only this one; may be given again")
+    parser.add_argument("--task", action="append", help="only this one; may be given again")
+    parser.add_argument("--part", choices=("proofs", "suite"), help="only this one")
     chosen = harness.options(__doc__, parents=[parser])
     for part in (proofs, suite):
-        print(part(chosen), flush=True)
+        if chosen.part in (None, part.__name__):
+            print(part(chosen), flush=True)
 
 
 if __name__ == "__main__":

@@ -17,8 +17,12 @@ from holdfast.failures import Degraded
 
 # Public callables with ``locked=`` that take no Degraded, and why.
 OTHERS = {
-    **dict.fromkeys(("reach_claim", "ReachClaim"), "an interval, anywhere in which one joint locks"),
+    **dict.fromkeys(
+        ("reach_claim", "ReachClaim", "out_of_reach_claim", "OutOfReachClaim"), "an interval, anywhere in which one joint locks"
+    ),
     "assess": "asks of each joint alone, as if it locked: nothing is known to have failed",
+    "CertificateCheck": "a result: a name",
+    "StructuralZeroClaim": "an index: whichever angle it locks at",
     "Degraded": "is itself",
     "StationaryPoints": "a result, of indices",
     "is_stuck": "a matrix, not an arm: indices of its columns",

@@ -3,10 +3,12 @@
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 from tools.loops import LOOPS
 from tools.loops.film import OUT, SIZE, write
+from tools.loops.solid import box, fine
 from tools.loops.two_laws import shots
 
 
@@ -32,6 +34,19 @@ def test_a_loop_is_drawn_and_begins_with_what_is_shown_longest(tmp_path, monkeyp
         assert picture.n_frames == 2
         picture.load()  # Pillow knows how long a picture is shown once it has read it
         assert picture.info["duration"] == max(ms for _, ms in taken)
+
+
+def test_triangles_are_halved_until_they_are_small_and_cover_what_they_did():
+    whole = box([0.7, 0.5, 0.04], [0.6, 0, 0])
+    pieces = fine(whole)
+
+    def area(triangles):
+        return np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1).sum() / 2
+
+    assert area(whole) == pytest.approx(2 * (0.7 * 0.5 + 0.7 * 0.04 + 0.5 * 0.04))
+    assert area(pieces) == pytest.approx(area(whole))
+    assert np.linalg.norm(pieces - np.roll(pieces, 1, axis=1), axis=2).max() <= 0.12
+    np.testing.assert_allclose(pieces.reshape(-1, 3).min(axis=0), [0.25, -0.25, -0.02])
 
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "docs" / "examples").glob("*/[0-9][0-9]_*.py"))

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from holdfast import arms
 from holdfast.certificates import verifier
@@ -89,7 +90,7 @@ def target_pose(axes: str, u: Array, rotation: Array | None) -> Array:
     """(4, 4) that the parameters of a target mean."""
     where = np.append(u[: min(3, len(u))], [0.0] * (3 - min(3, len(u))))
     if axes.endswith("RPY"):
-        rotation = turn(2, u[3]) @ turn(1, u[4]) @ turn(0, u[5])
+        rotation = Rotation.from_euler("xyz", u[3:]).as_matrix()  # about fixed axes: x first
     return place(np.eye(3) if rotation is None else rotation, where)
 
 

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
+from contextlib import nullcontext
+
+import pytest
 
 
 def test_the_commands(cli, tmp_path):
@@ -27,3 +31,90 @@ def test_the_commands(cli, tmp_path):
     text = file.read_text().replace('"locked": -1', '"locked": 1')
     file.write_text(text)
     assert cli("certificate", "check", str(file))[0] == 2
+
+
+def test_a_tolerant_box(cli, tmp_path, monkeypatch):
+    words = ["certify", "tolerant", "planar-3r", "--box", "1.5 0.5", "--size", "0.1", "--out", str(tmp_path / "box")]
+    (tmp_path / "ranges.yaml").write_text("joint1: [-60, 30]\njoint2: [0, 80]\n")
+    ranges = ["--ranges", str(tmp_path / "ranges.yaml"), "--range", "3=0..80", "--degrees"]
+    code, out, _ = cli(*words, *ranges, "--json")
+    assert code == 0
+    assert {part["undecided"]["value"] for part in json.loads(out)["parts"].values()} == {0}
+    code, out, _ = cli("certificate", "check", str(tmp_path / "box" / "tolerant.certificate"))
+    assert code == 0
+    assert "healthy" in out
+    code, out, _ = cli(*words, *ranges, "--failures", "3", "--no-check")
+    assert code == 2  # of three joints at once
+    monkeypatch.setattr("holdfast.cli.before.certify.stopping", lambda said: nullcontext(lambda: True))
+    code, out, err = cli(*words, *ranges)
+    assert (code, err) == (130, "holdfast: stopped\n")
+    assert "undecided" in out
+    assert cli("certificate", "check", str(tmp_path / "box" / "tolerant.certificate"))[0] == 0
+    (tmp_path / "ranges.yaml").write_text("joint1: 60\n")
+    code, _, err = cli(*words, *ranges)
+    assert code == 2
+    assert "[LOW, HIGH]" in err
+
+
+def test_out_of_reach(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "out-of-reach", "planar-3r", "--lock", "2=90..100", "--degrees", "--out", str(file)]
+    code, out, _ = cli(*words, "--box", "2.5 1", "--size", "0.2", "--json")
+    assert code == 0
+    assert json.loads(out)["undecided"]["value"] == 0
+    assert "the tool is elsewhere" in cli("certificate", "show", str(file))[1]
+    code, out, _ = cli(*words, "--box", "1.5 1", "--size", "0.2")
+    assert code == 4
+    assert "Refuted: at (" in out
+    assert cli("certificate", "check", str(file))[0] == 0
+    code, out, _ = cli(*words, "--box", "2.6 0", "--size", "0.2", "--time-limit", "1e-9", "--no-check", "--json")
+    assert code == 3
+    assert json.loads(out)["witness"] is None
+
+
+def test_poses(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "reach", "panda", "--box", "0.5 0 0.5", "--size", "0.01", "--degrees", "--out", str(file)]
+    for size, axes in ((), "xyz"), (("--rotation-size", "1"), "xyzRPY"):
+        assert cli(*words, "--rotation", "180 0 0", *size)[0] == 0
+        document = json.loads(file.read_text())
+        assert document["target"]["axes"] == axes
+        assert (document["target"]["orientation"] is None) == bool(size)
+    roll = [math.degrees(float.fromhex(x)) for x in document["target"]["box"][3]]
+    assert roll == pytest.approx([179.5, 180.5])
+    code, _, err = cli(*words, "--rotation-size", "1")
+    assert code == 2
+    assert "--rotation" in err
+    assert cli(*words, "--rotation", "180 0")[0] == 2
+
+
+def test_a_ceiling(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["certify", "ceiling", "panda", "--around", "-35 -45 51 -111 -46 84 -3", "--degrees", "--out", str(file)]
+    code, out, _ = cli(*words, "--within", "3", "--below", "0.07", "--json")
+    assert code == 0
+    assert json.loads(out)["rejected"] == 0
+    assert "is at most 0.07; angles in rad" in cli("certificate", "show", str(file))[1]
+    code, out, _ = cli(*words, "--within", "3", "--below", "0.06")
+    assert code == 4
+    assert "Refuted: 0.06" in out
+    assert cli("certificate", "check", str(file))[0] == 0
+    code, _, err = cli(*words, "--within", "3 4", "--below", "0.06")
+    assert code == 2
+    assert "--within one or 7" in err
+    assert cli(*words, "--below", "0.06")[0] == 2
+    code, out, _ = cli(
+        *words, "--within", "5", "--limit", "2=-50..-40", "--below", "0.07", "--halvings", "0", "--no-check", "--json"
+    )
+    assert code == 3
+    assert len(json.loads(out)["best"]) == 7
+
+
+def test_a_structural_zero(cli, tmp_path):
+    words = ["certify", "structural-zero", "--out", str(tmp_path / "a.certificate")]
+    code, out, _ = cli(*words, "iiwa14", "lbr_iiwa_joint_4")
+    assert code == 0
+    assert "a lock of lbr_iiwa_joint_4 is 0" in " ".join(out.split())
+    code, out, _ = cli(*words, "panda", "panda_joint4", "--json")
+    assert code == 3
+    assert json.loads(out)["proved"] is False

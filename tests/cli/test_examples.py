@@ -62,6 +62,10 @@ APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleo
 QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {
     "certify reach",
+    "certify ceiling",
+    "certify structural-zero",
+    "certify out-of-reach",
+    "certify tolerant",
     "certificate check",
     "certificate show",
     "study new",

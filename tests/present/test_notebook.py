@@ -57,6 +57,13 @@ def found(function, *args, **options):
     return cache(lambda: function(*args, **options))
 
 
+FOUR = [[-1, 1], [0.3, 0.4], [0.3, 0.4], [-1, 1]]
+
+
+def four():
+    return hf.Arm.from_dh([hf.DH(1.0, 0.0, 0.0)] * 4, name="planar-4r")
+
+
 @cache
 def proof():
     return hf.certify(hf.certificates.reach_claim(arm(), (1.5, 0.5), 0.1), halvings=1)
@@ -70,6 +77,7 @@ MADE = {
     "Arm": arm,
     "Assessment": lambda: assessed(),
     "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
+    "Ceiling": found(lambda: hf.certify(hf.certificates.ceiling_claim(four(), FOUR, 0.4, task="planar-pose"))),
     "CellCheck": found(lambda: hf.check_cell(hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), arm())),
     "CertificateCheck": lambda: hf.check_certificate(proof().write(Path(mkdtemp()) / "a.certificate")),
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
@@ -87,12 +95,17 @@ MADE = {
     "Path": path,
     "Recovery": recovered,
     "Proof": lambda: proof(),
+    "Refutation": found(lambda: hf.certify(hf.certificates.out_of_reach_claim(arm(), (2.9, 1.4), 0.1))),
     "Region": region,
     "Runs": found(lambda: hf.simulate(law(), X, TARGET, locked={"joint2": None})),
     "SelfMotion": found(lambda: hf.self_motion(arm(), TARGET, "planar", starts=4)),
     "StationaryPoints": found(lambda: hf.stationary_points(law(), TARGET, {1: 1.0})),
+    "StructuralZero": found(lambda: hf.certify(hf.certificates.structural_zero_claim(hf.arms.load("iiwa14"), 3))),
     "Task": lambda: index().task,
     "TimedPath": timed,
+    "TolerantProof": found(
+        lambda: hf.certify(hf.certificates.tolerant_claim(arm(), (1.5, 0.5), 0.1, working_ranges={0: (0, 0.5)}, failures=[0]))
+    ),
     "TolerantWorkspace": found(
         lambda: hf.tolerant_workspace(arm().with_limits([-2] * 3, [2] * 3), "planar", points=4, angles=2)
     ),
@@ -102,7 +115,8 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "WaypointCheck"}
+WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "TolerantProof"}
+WITHOUT_FIGURE |= {"Ceiling", "Refutation", "StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

@@ -12,6 +12,7 @@ from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules
 from holdfast.recovery import Ending, search
 from holdfast.recovery.proofs.flood import _Points, disconnected, holds_configuration, may_meet
+from holdfast.recovery.proofs.within_objects import WithinObjects
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.space import Space
 
@@ -193,3 +194,55 @@ def test_a_cell_with_a_configuration_of_the_goal_is_never_left_out(rng, rows):
             told.append(holds.mean())
     if rows != ["vx", "wy"]:
         assert min(told) < 0.2
+
+
+def test_a_box_that_is_blocked_holds_nothing_that_is_clear(rng):
+    centres = np.array([[1.4, 0.5], [-0.7, -1.2]])
+    blocked = WithinObjects(among(three_links(2.8), centres, 0.5), 0.0)
+    middle, half = rng.uniform(-2.8, 2.8, (3000, 3)), rng.uniform(0, 0.2, (3000, 3))
+    found = blocked(middle, half)
+    assert 100 < found.sum() < 2000
+    inside = middle[found, None] + half[found, None] * rng.uniform(-1, 1, (1, 60, 3))
+    corners = middle[found, None] + half[found, None] * np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
+    q = np.concatenate([inside, corners], axis=1).reshape(-1, 3)
+    assert (room(centres, q) + BALL - 0.5).max() < 0
+    assert blocked.objects == "ball0, ball1"
+    touching = room(centres, middle) + BALL - 0.5 < -1e-3
+    assert (blocked(middle, 0 * half) >= touching).mean() > 0.97, "balls do not fill a link; nearly all that touches is seen"
+
+
+def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
+    """Against configurations of closed forms, one every half degree of the first joint."""
+    arm, proved, known = three_links(2.8), 0, 0
+    for _ in range(12):
+        centres, target = rng.uniform(-1.6, 1.6, (2, 2)), rng.uniform(-1.8, 1.8, 2)
+        pose = np.eye(4)
+        pose[:2, 3] = target
+        first = np.arange(-2.8, 2.8, np.deg2rad(0.5))
+        along = target @ [1, 1j] - np.exp(1j * first)
+        first, along = first[np.abs(along) <= 2], along[np.abs(along) <= 2]
+        bend = np.arccos(np.clip(np.abs(along) ** 2 / 2 - 1, -1, 1))
+        every = [np.stack([first, np.angle(along) - b / 2 - first, b], axis=1) for b in (bend, -bend)]
+        q = np.concatenate(every)
+        q[:, 1] = (q[:, 1] + np.pi) % (2 * np.pi) - np.pi
+        q = q[(np.abs(q) <= 2.8).all(axis=1)]
+        most = (room(centres, q) + BALL - 0.6).max(initial=-np.inf)
+        blocked = WithinObjects(among(arm, centres, 0.6), 0.0)
+        found = hf.all_configurations(arm, pose, "planar", blocked=blocked, most_boxes=60_000)
+        assert not (found.none and most > 0)
+        known += most < -0.02
+        proved += most < -0.02 and found.none
+    assert known >= 3
+    assert proved >= known - 1
+
+
+def test_a_joint_that_is_looked_at_in_one_place_blocks_only_where_all_its_places_do():
+    arm, seen = hf.arms.load("panda"), []
+
+    def blocked(middle, half):
+        seen.append(half[:, 6])
+        return np.zeros(len(middle), dtype=bool)
+
+    pose = arm.forward_kinematics(np.array([0.3, 0.2, 0.0, -1.8, 0.0, 2.0, 0.8]))
+    hf.all_configurations(arm, pose, "position", blocked=blocked, most_boxes=20_000)
+    np.testing.assert_allclose(np.concatenate(seen), (arm.upper[6] - arm.lower[6]) / 2)

@@ -118,3 +118,19 @@ def test_a_panda_with_narrow_ranges_keeps_its_pose_along_a_line():
     for share, q in zip(result.rest.share[::9], result.q[along.first : along.last + 1 : 9], strict=True):
         pin.framesForwardKinematics(model, data, q)
         np.testing.assert_allclose(data.oMf[tool].homogeneous, path.pose(share), atol=3e-6)
+
+
+def test_waypoints_are_added_where_straight_lines_of_joints_leave_the_path():
+    arm = hf.Arm.from_dh([hf.DH(a=0.3, alpha=0.0) for _ in range(3)], name="short")
+    path = hf.paths.line([0.8999, 0, 0], [0.75, 0, 0])  # the two links that still move begin almost stretched
+    bend = np.arccos((0.8999 - 0.3) / 0.6)
+    answer = hf.recover(arm, {"joint1": 0.0}, [0, bend, -2 * bend], goal=None, path=path, task="planar", samples=0)
+    assert answer.ok
+    share = answer.rest.share
+    assert len(share) == len(answer.rest.found) == len(answer.q)
+    assert len(share) > 22, "one pose every 7 mm is not enough: 1.4 mm off the path"
+    s = np.linspace(0, 1, 41)
+    fine = (answer.q[:-1, None] + s[:, None] * np.diff(answer.q, axis=0)[:, None]).reshape(-1, 3)
+    tool = 0.3 * np.exp(1j * np.cumsum(fine, axis=1)).sum(axis=1)
+    places = (share[:-1, None] + s * np.diff(share)[:, None]).ravel()
+    assert np.abs(tool - (0.8999 - 0.1499 * places)).max() < 6e-4

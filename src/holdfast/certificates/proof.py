@@ -1,30 +1,20 @@
-"""Certificates made and checked."""
+"""What the prover found."""
 
 from __future__ import annotations
 
-import base64
 import json
-import zlib
+import re
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from fractions import Fraction
 from pathlib import Path
-from time import monotonic, perf_counter
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from holdfast import __version__
-from holdfast.arguments import checked
-from holdfast.certificates import verifier
-from holdfast.certificates.claims import ROWS, ReachClaim
-from holdfast.certificates.search import PROVED, UNDECIDED, Search
-from holdfast.certificates.taylor import UNIT, Chain, Reach
-from holdfast.errors import InputError
-from holdfast.files.output import replaced
-from holdfast.notice import says
+from holdfast.certificates import documents, verifier
+from holdfast.certificates.claims import ReachClaim, TolerantClaim
+from holdfast.files.output import made, replaced
 from holdfast.result import Result
+
+SUFFIX = ".certificate"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +27,7 @@ class Proof(Result):
         undecided: The rest: neither proved nor refuted.
         leaves: Cells that are proved.
         nodes: Cells that were looked at.
-        finished: False if the time limit was spent before the smallest cells were reached.
+        finished: False if it was stopped, or the time limit was spent, before the smallest cells were reached.
         seconds: Measured.
         document: The certificate, as its file holds it.
     """
@@ -62,176 +52,131 @@ class Proof(Result):
         Raises:
             StoreError: The file cannot be written.
         """
-        path = Path(file)
-        replaced(path, (json.dumps(self.document, sort_keys=True, indent=1) + "\n").encode(), "certificate")
-        return path
+        return written(self.document, Path(file))
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        spent = "" if self.finished else "; the time limit was spent before the smallest cells were reached"
         return [
             self.document["claim"],
             f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)}, "
-            f"undecided {verifier.per_cent(self.undecided, up=True)}{spent}.",
+            f"undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
 
 
 @dataclass(frozen=True, kw_only=True)
-class CertificateCheck(Result):
-    """What the verifier says of a certificate.
+class TolerantProof(Result):
+    """What the prover found for a failure-tolerant box. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
-        claim: The sentence that is proved, as far as it is.
-        leaves, accepted, rejected: Cells; what a rejected one covers counts as undecided.
-        undecided: Exact share of targets and locked angles; of a bundle in its worst part.
-        tolerant: At least this share of the targets is proved, for every locked value and lock.
-        seconds: Measured.
-        said: The verifier's own sentence.
+        claim: What was asked.
+        parts: Of the healthy arm, then of each lock of the claim.
     """
 
-    claim: str
-    leaves: int
-    accepted: int
-    rejected: int
-    undecided: Fraction
-    tolerant: Fraction
-    seconds: float
-    said: str
+    claim: TolerantClaim
+    parts: tuple[Proof, ...]
 
     @property
     def ok(self) -> bool:
-        """True if every cell was checked and accepted."""
-        return self.rejected == 0 and self.accepted == self.leaves
+        """True if nothing is undecided."""
+        return all(part.ok for part in self.parts)
+
+    @property
+    def worst(self) -> Proof:
+        """The part of which most is undecided."""
+        return max(self.parts, key=lambda part: part.undecided)
+
+    @property
+    def proved(self) -> Fraction:
+        """Exact share of targets and locked angles that is proved in the worst part."""
+        return self.worst.proved
+
+    @property
+    def undecided(self) -> Fraction:
+        """The rest of it."""
+        return self.worst.undecided
+
+    @property
+    def tolerant(self) -> Fraction:
+        """At least this share of the targets is proved while healthy, and for every lock at every locked angle."""
+        count = len(self.claim.box)
+        unproved = {cell[:count] for part in self.parts for cell in documents.undecided(part.document)}
+        return max(Fraction(0), 1 - verifier.volume(unproved))
+
+    @property
+    def leaves(self) -> int:
+        """Cells that are proved."""
+        return sum(part.leaves for part in self.parts)
+
+    @property
+    def nodes(self) -> int:
+        """Cells that were looked at."""
+        return sum(part.nodes for part in self.parts)
+
+    @property
+    def finished(self) -> bool:
+        """False if a part was stopped before the smallest cells were reached."""
+        return all(part.finished for part in self.parts)
+
+    @property
+    def seconds(self) -> float:
+        """Measured."""
+        return sum(part.seconds for part in self.parts)
+
+    def named(self, part: Proof) -> str:
+        """``healthy``, or the joint that locks in a part."""
+        return "healthy" if part.claim.locked < 0 else self.claim.arm.joint_names[part.claim.locked]
+
+    def document(self, stem: str = "tolerant") -> dict[str, Any]:
+        """The certificate that names those of its parts, as its file holds it."""
+        parts = [part.document for part in self.parts]
+        return documents.bundle(self.claim, parts, self.parts.index(self.worst), self._names(stem))
+
+    def _names(self, stem: str) -> list[str]:
+        """Files of the parts; joints by their number, as their names may hold anything."""
+        locks = [part.claim.locked + 1 for part in self.parts]
+        return [f"{stem}-{f'lock-of-joint-{k}' if k else 'healthy'}{SUFFIX}" for k in locks]
+
+    def write(self, file: str | Path) -> Path:
+        """Write the certificate, and those of its parts beside it.
+
+        Args:
+            file: The file; or a folder, which is made if need be and gets ``tolerant.certificate``.
+
+        Returns:
+            The file, which is what :func:`check_certificate` takes.
+
+        Raises:
+            StoreError: A file cannot be written.
+        """
+        path = Path(file)
+        if path.is_dir() or not path.suffix:
+            path = made(path) / f"tolerant{SUFFIX}"
+        stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem).lstrip("-") or "tolerant"
+        for part, name in zip(self.parts, self._names(stem), strict=True):
+            part.write(path.with_name(name))
+        return written(self.document(stem), path)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        return [self.claim, self.said]
+        worst = "the healthy arm" if self.worst.claim.locked < 0 else f"a lock of {self.named(self.worst)}"
+        most = "" if self.ok else f", at most, with {worst}"
+        return [
+            self.document()["claim"],
+            f"Found by the prover, not yet verified: whatever locks, proved {verifier.per_cent(self.tolerant)} of the targets "
+            f"at least; undecided {verifier.per_cent(self.undecided, up=True)}{most}{early(self.finished)}.",
+            f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
+            f"{self.seconds:.1f} s.",
+        ]
 
 
-@checked
-@says("searching for a proof")
-def certify(claim: ReachClaim, *, halvings: int = 8, time_limit: float | None = None, seed: int = 0) -> Proof:
-    """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
-
-    Args:
-        claim: From :func:`holdfast.certificates.reach_claim`.
-        halvings: Of each axis, at most: what is still undecided then stays so.
-        time_limit: s after which the rest is undecided. Else the same seed gives the same certificate.
-        seed: Of all random draws.
-
-    Returns:
-        A :class:`holdfast.certificates.Proof`, found by the prover and not yet verified. Its file is checked by
-        :func:`check_certificate`, or without holdfast; see the explanation of certificates.
-
-    Raises:
-        InputError: A number out of range, or a box that would take more than 2^24 cells.
-    """
-    if not 0 <= halvings <= 20:
-        raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
-    if time_limit is not None and not time_limit > 0:
-        raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
-    began, until = perf_counter(), np.inf if time_limit is None else monotonic() + time_limit
-    arm = claim.arm
-    chain = Chain.of(arm)
-    root = claim.box if claim.angle is None else np.vstack([claim.box, claim.angle])
-    search = Search(Reach(arm, ROWS[claim.task], claim.locked, claim.limits), root, halvings, seed)
-    cells = search.estimate()
-    if verifier.MOST_LEAVES < cells < np.inf:
-        raise InputError(
-            f"single configurations prove so little of this box that it would take some {cells:.0e} cells; "
-            "a smaller box or a narrower interval of the lock takes fewer"
-        )
-    finished = search.run(until)
-    proved, undecided = search.tree.volume(PROVED), search.tree.volume(UNDECIDED)
-    seconds = perf_counter() - began
-    tree, centres = search.tree.in_order()
-    rows = np.array(centres, dtype="<i4").reshape(-1, arm.n)
-    document: dict[str, Any] = {
-        "format": "holdfast-certificate",
-        "version": 1,
-        "kind": "reach",
-        "arm": _stored(arm.joint_names, chain, np.column_stack([arm.lower, arm.upper])),
-        "source": {"name": arm.name},
-        "task": claim.task,
-        "target": {"axes": "xyz"[: ROWS[claim.task]], "box": _hexes(claim.box), "orientation": None},
-        "locked": claim.locked,
-        "angle": None if claim.angle is None else _hexes(claim.angle),
-        "limits": _hexes(claim.limits),
-        "unit": UNIT.hex(),
-        "tree": _packed(tree),
-        "centres": _packed(rows.tobytes()),
-        "refutations": [],
-        "volumes": {"proved": _dyadic(proved), "refuted": "0/2^0", "undecided": _dyadic(undecided)},
-        "made_by": f"holdfast {__version__}",
-        "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
-        "seconds": seconds,
-        "nodes": search.nodes,
-    }
-    document["arm_digest"] = verifier.digest(document["arm"])
-    document["claim"] = verifier.sentence(document)
-    document["digest"] = verifier.digest(document)
-    return Proof(
-        claim=claim,
-        proved=proved,
-        undecided=undecided,
-        leaves=len(rows),
-        nodes=search.nodes,
-        finished=finished,
-        seconds=seconds,
-        document=document,
-    )
+def early(finished: bool) -> str:
+    """What is said of a search that ended early."""
+    return "" if finished else "; the search was stopped before the smallest cells were reached"
 
 
-@checked
-@says("checking the certificate")
-def check_certificate(file: str | Path, *, sample: int | None = None, workers: int = 1) -> CertificateCheck:
-    """Check a certificate by the verifier, which shares nothing with the prover but the sentence of the claim.
-
-    Args:
-        file: The certificate; the parts of a bundle lie beside it.
-        sample: Only so many cells, drawn at random: then it is sampled, not verified.
-        workers: Processes.
-
-    Raises:
-        InputError: A file that cannot be checked, or python-flint is not installed (extra ``certify``).
-    """
-    if workers < 1 or (sample is not None and sample < 1):
-        raise InputError("sample and workers must be 1 or more")
-    try:
-        found = verifier.verify(file, sample=sample, workers=workers)
-    except verifier.Refused as error:
-        raise InputError(str(error)) from error
-    return CertificateCheck(
-        claim=found.document["claim"],
-        leaves=found.leaves,
-        accepted=found.accepted,
-        rejected=found.rejected,
-        undecided=found.undecided,
-        tolerant=found.tolerant,
-        seconds=found.seconds,
-        said=found.sentence,
-    )
-
-
-def _stored(names: tuple[str, ...], chain: Chain, limits: NDArray[np.float64]) -> dict[str, Any]:
-    frames = [
-        {"rotation": _hexes(turn.ravel()), "origin": _hexes(place)}
-        for turn, place in zip(chain.rotations, chain.origins, strict=True)
-    ]
-    joints = zip(names, frames, limits, strict=False)
-    stored = [{"name": name, "type": "revolute", **frame, "limits": _hexes(pair)} for name, frame, pair in joints]
-    return {"joints": stored, "tool": frames[-1]}
-
-
-def _hexes(values: Any) -> Any:
-    return [_hexes(x) for x in values] if np.ndim(values) else float(values).hex()
-
-
-def _packed(data: bytes) -> str:
-    return base64.b64encode(zlib.compress(data, 9)).decode()
-
-
-def _dyadic(part: Fraction) -> str:
-    return f"{part.numerator}/2^{part.denominator.bit_length() - 1}"
+def written(document: dict[str, Any], path: Path) -> Path:
+    """The file of a certificate."""
+    replaced(path, (json.dumps(document, sort_keys=True, indent=1) + "\n").encode(), "certificate")
+    return path

@@ -2,229 +2,143 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from fractions import Fraction
+from collections.abc import Callable
+from heapq import heappop, heappush
 from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.certificates.pool import Pool, stepped
 from holdfast.certificates.taylor import UNIT, Form, Reach
+from holdfast.certificates.tree import Cells, Tree
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
+Tell = Callable[[float], None]
 
-PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
-_POOL, _STARTS = 1000, 12  # targets, and random starts of each
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
-_STEPS, _STRIDE = 6, 0.5  # along self-motions, rad
-_CLIMB, _TYPICAL = 10, 16  # such steps of the pool, to prove more of cells that are so many times smaller than the root
-_AT_ONCE = 4096
-_LOST = 1e6  # m: the error where the arm is singular
+_STEPS = 6  # along self-motions
+_AT_ONCE = 512
+_LEAST_TURN = 1e-3  # rad: a tool turned away by less may come to its target
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
+_LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
 
-
-@dataclass
-class Cells:
-    """Cells of one level: halves as integers, cell k of 2^depth along each axis, and what it inherits.
-
-    Attributes:
-        place, depth: (N, A).
-        name: (N,) number of each in the tree.
-        q: (N, n) a configuration to begin from, rad.
-    """
-
-    place: Index
-    depth: Index
-    name: Index
-    q: Array
-
-    def take(self, which: NDArray[np.intp] | Flags) -> Cells:
-        """Some of them."""
-        return Cells(self.place[which], self.depth[which], self.name[which], self.q[which])
-
-
-class Tree:
-    """A bisection tree that grows level by level.
-
-    Attributes:
-        token: Of each node: proved, undecided, or 16 and the axis that is halved.
-        below: The lower child of each node that is split; the upper one is the next.
-        centre: (n,) of each proved node, in units of 2^-24 rad.
-        depth: Halvings above each node.
-    """
-
-    def __init__(self) -> None:
-        self.token: list[int] = [UNDECIDED]
-        self.below: list[int] = [0]
-        self.depth: list[int] = [0]
-        self.centre: dict[int, Index] = {}
-
-    def split(self, name: int, axis: int) -> int:
-        """The lower child."""
-        self.token[name], self.below[name] = SPLIT + axis, len(self.token)
-        self.token += [UNDECIDED] * 2
-        self.below += [0] * 2
-        self.depth += [self.depth[name] + 1] * 2
-        return self.below[name]
-
-    def volume(self, token: int) -> Fraction:
-        """Exact share of the root of the leaves with this token."""
-        counts: dict[int, int] = {}
-        for found, depth in zip(self.token, self.depth, strict=True):
-            if found == token:
-                counts[depth] = counts.get(depth, 0) + 1
-        return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
-
-    def in_order(self) -> tuple[bytes, list[Index]]:
-        """Tokens in pre-order, lower half first, and the centres of the proved leaves in this order."""
-        tokens, centres, waiting = bytearray(), [], [0]
-        while waiting:
-            name = waiting.pop()
-            tokens.append(self.token[name])
-            if self.token[name] >= SPLIT:
-                waiting += [self.below[name] + 1, self.below[name]]
-            elif self.token[name] == PROVED:
-                centres.append(self.centre[name])
-        return bytes(tokens), centres
+_SMALL = 0.75  # of all halvings
+_DEEPER = 0.25  # of a halving: so much is a cell worth more for being smaller
 
 
 class Search:
-    """The search over one root box.
+    """The search over one root box, resumed as often as one likes.
 
     Args:
         reach: What must be reached.
         root: (A, 2) targets along each axis, m, then the locked angle, rad.
         halvings: Of each axis, at most.
         seed: Of all random draws.
+        until: When the pool must be there (``monotonic``).
+
+    Attributes:
+        tree: What is found.
+        pool: Where it began.
+        nodes: Cells that were looked at.
+        open: Share of the root that is still to be looked at.
     """
 
-    def __init__(self, reach: Reach, root: Array, halvings: int, seed: int) -> None:
+    def __init__(self, reach: Reach, root: Array, halvings: int, seed: int, until: float = np.inf) -> None:
         self.reach, self.root, self.halvings = reach, root, halvings
-        from scipy.spatial import KDTree
-
-        self.rng = np.random.default_rng(seed)
-        self.tree, self.nodes = Tree(), 0
+        self.rng, self.tree, self.nodes = np.random.default_rng(seed), Tree(), 0
         self.width = root[:, 1] - root[:, 0]
-        self._unit = np.where(self.width > 0, self.width, 1.0)
-        at = self.root[:, 0] + self.rng.random((_POOL, len(root))) * self.width
-        starts = np.repeat(at, _STARTS, axis=0)
-        low, high = np.clip(reach.limits.T, -np.pi, np.pi)
-        q = self._at(self.rng.uniform(low, high, (len(starts), reach.n)), starts)
-        q = reach.solved(q, starts[:, : reach.m], 40)
-        met = reach.missed(q, starts[:, : reach.m]) < 1e-9
-        self.pool = q[met]
-        self._pool_at = starts[met, : reach.m]
-        self._near = KDTree(starts[met] / self._unit) if met.any() else None
-        self._climb(starts[met])
+        self.pool = Pool(reach, root, self.rng, until)
+        self.open = 0.0
+        self._open: list[tuple[float, int, Index, Index, Array, int]] = []
+        start = self.pool.q[:1] if len(self.pool.q) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
+        whole = np.zeros((1, len(root)), dtype=np.int64)
+        none = np.zeros(1, dtype=np.int64)
+        self._push(Cells(whole, whole, none, start, none), np.ones(1))
 
-    def _climb(self, at: Array) -> None:
-        """In place: the pool moves along its self-motions to where configurations prove more."""
-        half, best = np.tile(self.width / _TYPICAL, (len(at), 1)), np.full(len(at), -1.0)
-        for k in range(1 + _CLIMB * self._redundant):
-            q = self.reach.solved(self._stepped(self.pool), self._pool_at) if k else self.pool
-            size = Form.at(self.reach, q, self._pool_at).scale(half)
-            better = size > best
-            self.pool[better], best[better] = q[better], size[better]
+    def run(self, until: float = np.inf, stop: Callable[[], bool] = lambda: False, tell: Tell = lambda closed: None) -> bool:
+        """Down to the smallest cells, or until it is time or to stop: first where most is proved by a configuration.
 
-    @property
-    def _redundant(self) -> bool:
-        return bool(self.reach.free.sum() > self.reach.m)
+        Args:
+            until: ``monotonic``.
+            stop: Asked before each batch of cells.
+            tell: Is told what share of the root is closed, of each batch.
 
-    def _stepped(self, q: Array) -> Array:
-        """A random step along the self-motion from each q (N, n)."""
-        move = np.nan_to_num(self.reach.along(q, self.rng.normal(size=q.shape)))
-        size = self.rng.uniform(0, _STRIDE, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
-        return np.asarray(q + move * size[:, None])
+        Returns:
+            Whether nothing is left to do.
+        """
+        while self._open and monotonic() < until and not stop():
+            taken = [heappop(self._open) for _ in range(min(_AT_ONCE, len(self._open)))]
+            _, names, *parts, barren = map(np.array, zip(*taken, strict=True))
+            self._look(Cells(parts[0], parts[1], names, parts[2], barren))
+            tell(1 - self.open)
+        return not self._open
 
-    def estimate(self) -> float:
-        """Cells that the whole would take, from how much of it single configurations prove."""
-        if not len(self.pool):
-            return float("inf")
-        some = self.rng.permutation(len(self.pool))[:_POOL]
-        # The largest part of the root, by width, that each of them proves: a power of 2 down to 1/1024.
-        form, half = Form.at(self.reach, self.pool[some], self._pool_at[some]), self.width / 2
-        sizes = np.array([2.0**-k for k in range(11)])
-        best = np.full(len(some), sizes[-1] / 2)
-        for size in sizes[::-1]:
-            good, _ = form.proved(np.broadcast_to(half * size, (len(some), len(half))))
-            best = np.where(good, size, best)
-        axes = int((self.width > 0).sum())
-        return float(np.median(1 / best) ** axes)
+    def _push(self, cells: Cells, part: Array) -> None:
+        """To be looked at; of the cells around them these parts (N,), by width, were proved by one configuration.
 
-    def run(self, until: float = np.inf) -> bool:
-        """Down to the smallest cells, or to a time (``monotonic``); False if that came first."""
-        axes = len(self.root)
-        start = self.pool[:1] if len(self.pool) else np.clip(np.zeros((1, self.reach.n)), *self.reach.limits.T)
-        level = Cells(
-            np.zeros((1, axes), dtype=np.int64), np.zeros((1, axes), dtype=np.int64), np.zeros(1, dtype=np.int64), start
-        )
-        while len(level.name):
-            following = []
-            for first in range(0, len(level.name), _AT_ONCE):
-                if monotonic() > until:
-                    return False
-                following.append(self._halved(level.take(np.arange(first, min(first + _AT_ONCE, len(level.name))))))
-            level = Cells(*(np.concatenate(x) for x in zip(*((c.place, c.depth, c.name, c.q) for c in following), strict=True)))
-        return True
+        A cell takes as many configurations as such parts fill it: what each of them proves is the same for cells of all
+        sizes where the arm is the same, so that smaller cells, which are nearer to being proved, come first by a little.
+        """
+        self.open += cells.share
+        axes, halvings = int((self.width > 0).sum()), cells.depth.sum(axis=1)
+        worth = (_DEEPER - 1) * halvings + axes * np.log2(np.maximum(part, _LEAST))
+        first = (-worth).tolist(), cells.name.tolist()
+        for row in zip(*first, cells.place, cells.depth, cells.q, cells.barren.tolist(), strict=True):
+            heappush(self._open, row)
 
     # ---- a batch of cells --------------------------------------------------------------------------------------
 
-    def _at(self, q: Array, at: Array) -> Array:
-        """With the locked joint where it is locked."""
-        if self.reach.locked < 0:
-            return q
-        q = q.copy()
-        q[:, self.reach.locked] = at[:, -1]
-        return q
-
-    def _halved(self, cells: Cells) -> Cells:
-        """Those that are proved are leaves; the halves of the others."""
+    def _look(self, cells: Cells) -> None:
+        """Those that are proved are leaves; the halves of the others are to be looked at."""
         self.nodes += len(cells.name)
+        self.open -= cells.share
         scale = 0.5 ** (cells.depth + 1)
         half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
         q, found, part = self._tried(cells.q, centre, half)
         smallest = np.asarray((cells.depth >= self.halvings)[:, self.width > 0].all(axis=1))
-        self._from_pool(q, found, part, smallest, centre, half)
-        self._along_self_motions(q, found, part, smallest, centre, half)
+        tried = smallest
+        self._from_pool(q, found, part, tried, centre, half)
+        self._along_self_motions(q, found, part, tried, centre, half)
         places = np.round(q / UNIT).astype(np.int64)
         places[:, ~self.reach.free] = 0
         for k in np.flatnonzero(found):
-            self.tree.token[cells.name[k]], self.tree.centre[int(cells.name[k])] = PROVED, places[k]
+            self.tree.prove(int(cells.name[k]), places[k])
+        self.pool.add(centre[found], q[found])
         # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
-        off = self.reach.missed(q, centre[:, : self.reach.m])
-        turn = half[:, self.reach.m :].sum(axis=1) * self.reach.lengths.sum()
-        lost = off > 2 * (np.linalg.norm(half[:, : self.reach.m], axis=1) + turn)
+        away, turned = self.reach.missed(q, centre[:, : self.reach.axes]).T
+        turn = half[:, self.reach.axes :].sum(axis=1)
+        lost = away > 2 * (np.linalg.norm(half[:, : self.reach.linear], axis=1) + turn * self.reach.swing)
+        lost |= turned > 2 * half[:, self.reach.linear :].sum(axis=1) + _LEAST_TURN
+        # Nor in small cells after nothing was proved of as many around each other as there are axes.
+        barren = np.where(part > 0, 0, cells.barren + 1)
+        axes = int((self.width > 0).sum())
+        lost |= (barren >= axes) & (cells.depth.sum(axis=1) >= _SMALL * axes * self.halvings)
         some = np.flatnonzero(~found & ~smallest & ~lost)
-        rest, q = cells.take(some), q[some]
-        axis = self._worst_axis(q, centre[some], half[some], rest.depth)
-        below = np.array([self.tree.split(int(n), int(a)) for n, a in zip(rest.name, axis, strict=True)], dtype=np.int64)
-        place, depth = np.repeat(rest.place, 2, axis=0), np.repeat(rest.depth, 2, axis=0)
-        rows, twice = np.arange(2 * len(some)), np.repeat(axis, 2)
-        place[rows, twice] = 2 * place[rows, twice] + rows % 2
-        depth[rows, twice] += 1
-        return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(q, 2, axis=0))
+        rest = cells.take(some)
+        rest.q, rest.barren = q[some], barren[some]
+        form = Form.at(self.reach, rest.q, centre[some, : self.reach.axes])
+        axis = form.worst_axis(half[some], (rest.depth < self.halvings) & (self.width > 0))
+        self._push(self.tree.halved(rest, axis), np.repeat(part[some], 2))
 
     def _from_pool(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
         """In place: cells of which little is proved try the nearest of the pool, the smallest more of them."""
         some = np.flatnonzero(~found & ((part < _HOPELESS) | smallest))
-        if self._near is None or not some.size:
-            return
-        count = min(_NEAR[1], len(self.pool))
-        near = np.asarray(self._near.query(centre[some] / self._unit, k=np.arange(1, count + 1), p=np.inf)[1])
-        for k in range(count):
+        near = self.pool.near(centre[some], _NEAR[1])
+        for k in range(near.shape[1]):
             still = ~found[some] & ((part[some] < _HOPELESS) & (k < _NEAR[0]) | smallest[some])
             if still.any():
-                self._improve(q, found, part, some[still], self.pool[near[still, k]], centre, half)
+                self._improve(q, found, part, some[still], near[still, k], centre, half)
 
     def _along_self_motions(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
-        """In place: cells that are nearly proved, and the smallest, try configurations on the self-motions of theirs."""
-        for _ in range(_STEPS * self._redundant):
-            which = np.flatnonzero(~found & ((part > 0.5) | smallest))
+        """In place: cells nearly proved or not at all, and the smallest, try configurations on the self-motions of theirs."""
+        for _ in range(_STEPS * self.reach.redundant):
+            which = np.flatnonzero(~found & ((part > 0.5) | smallest | (part == 0)))
             if not which.size:
                 break
-            self._improve(q, found, part, which, self._stepped(q[which]), centre, half)
+            self._improve(q, found, part, which, stepped(self.reach, q[which], self.rng), centre, half)
 
     def _improve(
         self, q: Array, found: Flags, part: Array, which: NDArray[np.intp], begin: Array, centre: Array, half: Array
@@ -236,9 +150,9 @@ class Search:
 
     def _tried(self, q: Array, centre: Array, half: Array) -> tuple[Array, Flags, Array]:
         """Rounded configurations near q (N, n), which of the cells they prove, and how much of the others, by width."""
-        m = self.reach.m
-        q = self._rounded(self.reach.solved(self._at(q, centre), centre[:, :m]), centre)
-        form = Form.at(self.reach, q, centre[:, :m])
+        targets = centre[:, : self.reach.axes]
+        q = self._rounded(self.reach.solved(self.reach.placed(q, centre), targets), centre)
+        form = Form.at(self.reach, q, targets)
         found, sections = form.proved(half)
         part = found.astype(float)
         rest = np.flatnonzero(~found)
@@ -247,25 +161,10 @@ class Search:
             # The error in the middle may cancel half of the curvature.
             near = rest[part[rest] > 0.5]
             above, below, _ = form.take(near).sides(half[near], sections[near])
-            moved = self._rounded(self.reach.solved(q[near], centre[near, :m] - (above - below) / 2, 3), centre[near])
-            good, _ = Form.at(self.reach, moved, centre[near, :m]).proved(half[near])
+            moved = self._rounded(self.reach.solved(q[near], targets[near], 3, (below - above) / 2), centre[near])
+            good, _ = Form.at(self.reach, moved, targets[near]).proved(half[near])
             q[near[good]], found[near[good]], part[near[good]] = moved[good], True, 1.0
         return q, found, part
 
     def _rounded(self, q: Array, centre: Array) -> Array:
-        return self._at(np.round(q / UNIT) * UNIT, centre)
-
-    def _worst_axis(self, q: Array, centre: Array, half: Array, depth: Index) -> Index:
-        """The axis of each cell (N,) whose halving leaves least error and least beyond the limits."""
-        form = Form.at(self.reach, q, centre[:, : self.reach.m])
-        low, high = self.reach.limits.T
-        price = np.full(half.shape, np.inf)
-        for axis in np.flatnonzero(self.width > 0):
-            narrow = half.copy()
-            narrow[:, axis] /= 2
-            above, below, _ = form.sides(narrow, np.zeros((len(q), self.reach.m)))
-            e = np.nan_to_num(np.maximum(above, below), nan=_LOST)
-            _, _, far = form.sides(narrow, np.maximum(e, 0))
-            beyond = np.maximum(np.maximum(low - (q - far), q + far - high), 0) * self.reach.free
-            price[:, axis] = np.where(depth[:, axis] < self.halvings, e.sum(axis=1) + beyond.sum(axis=1), np.inf)
-        return np.asarray(np.where(np.isfinite(price).any(axis=1), price.argmin(axis=1), 0), dtype=np.int64)
+        return self.reach.placed(np.round(q / UNIT) * UNIT, centre)

@@ -4,6 +4,17 @@ The file holds a bisection tree and a configuration for each leaf. Around it the
 first and second derivatives as balls (Arb), a bound for the third. With a section variable s this bounds |g - s| by e(S) over
 the leaf and a box of half widths S. Where e(S) <= S, the map s -> s - g sends that box into itself, so by Brouwer's theorem
 some s has g = 0: a configuration that reaches the target. Any matrix D may span the section; it decides whether e(S) <= S.
+
+A refutation is a tree over joints and targets. In each leaf a point of some link is farther from the target than the tool
+can be from this point, or nearer. How far that is, is a lemma, with a tree of its own over the joints behind the link.
+Distances are bounded by exact derivatives at the centre, in arrays of balls, and a bound for the third.
+
+A ceiling of relative manipulability is a tree over joints. With the moments a_l of any wrench about the axes, it is at most
+sqrt(A / (A + a_k^2)) after a lock of joint k, A the sum of the other a_l^2. In each leaf a wrench that is affine in the joints
+shows this, and one k. As its axes are seen from a link in the middle of the arm, first and last joint count nothing.
+
+A structural zero holds where all axes before a joint meet in one point, and all behind it in another: a force along the line
+through both has no moment about any other axis, so A = 0 (or the arm is singular). It is checked in rationals.
 """
 
 from __future__ import annotations
@@ -41,15 +52,20 @@ Array = NDArray[np.float64]
 Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
 
 MOST_BYTES, MOST_LEAVES, MOST_DEPTH, MOST_JOINTS, CHUNK = 256 << 20, 1 << 24, 200, 64, 256
-UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as version 1 holds no refutations
+UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
+LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
+LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere
 UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
+SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [0, 1, 5]}  # rows of a ceiling
 ROWS = {"planar xy": 2, "position xyz": 3, "pose xyz": 6, "pose xyzRPY": 6}  # by task and axes of the target
 NUMBER, TEXT, HASH = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
+WHOLE, RATIONAL = r"-?\d{1,40}", r"-?\d{1,60}/[1-9]\d{0,60}"
 LIMITS, FRAME = [f"{NUMBER}|-?inf", 2], {"rotation": [NUMBER, 9], "origin": [NUMBER, 3]}
 ARM = {"joints": [{"name": TEXT, "type": "revolute|prismatic", "limits": LIMITS, **FRAME}, ...], "tool": FRAME}
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
 VOLUMES = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": "reach|bundle", "arm": ARM}
+KINDS = "reach|bundle|refutation|ceiling|structural-zero"
+COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KINDS, "arm": ARM}
 COMMON |= {"arm_digest": HASH, "source": ..., "claim": TEXT, "task": TEXT, "volumes": VOLUMES, "digest": HASH, **FOR_PEOPLE}
 real = float.fromhex
 
@@ -101,9 +117,20 @@ def sentence(document: dict[str, Any]) -> str:
     def spans(names: Iterable[str], pairs: Iterable[list[str]]) -> str:
         return ", ".join(f"{name} {' to '.join(repr(real(x)) for x in pair)}" for name, pair in zip(names, pairs, strict=True))
 
-    names, target = [joint["name"] for joint in document["arm"]["joints"]], document["target"]
+    names = [joint["name"] for joint in document["arm"]["joints"]]
+    if document["kind"] == "structural-zero":
+        near = "{} rad and {} m".format(*(f"{_two_digits(Fraction(x), True):g}" if x else "0" for x in snap(document)))
+        text = f"For every configuration of an arm whose frames are within {near} of the file's, relative manipulability of the"
+        return f"{text} pose after a lock of {names[document['locked']]} is 0; arm {document['arm_digest'][:12]}."
+    if document["kind"] == "ceiling":
+        least = f"the least relative manipulability of the {document['task']} after a lock of one of "
+        least += f"{', '.join(names[k] for k in document['locks'])} is at most {real(document['threshold'])!r}"
+        text = f"For every configuration with {spans(names, document['joint_box'])}, {least}"
+        return f"{text}; angles in rad, arm {document['arm_digest'][:12]}."
+    target = document["target"]
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw"}.get(axis, axis) for axis in target["axes"]]
     turned = f" and the rotation {[real(x) for x in target['orientation']]}" if target["orientation"] else ""
+    turned += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
     text = f"For every {document['task']} target with {spans(axes, target['box'])}{turned}"
     kept = f"a configuration within the limits ({spans(names, document['limits'])})"
     if document["kind"] == "bundle":
@@ -115,7 +142,10 @@ def sentence(document: dict[str, Any]) -> str:
     elif document["locked"] >= 0:
         text += f", and every value {spans(['from'], [document['angle']])} at which {names[document['locked']]} may be locked"
         kept += " with that value"
-    return f"{text}, {kept} reaches it; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
+    if document["kind"] == "refutation":
+        text, kept = f"{text} and every configuration{kept.removeprefix('a configuration')}: the tool is elsewhere", ""
+    ends = f", {kept} reaches it" if kept else ""
+    return f"{text}{ends}; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
 
 
 def load(path: Path) -> dict[str, Any]:
@@ -145,10 +175,34 @@ def _check(document: dict[str, Any]) -> None:
         _fit(document.get(key), COMMON[key], key)
     joints, locks, target = document["arm"]["joints"], document.get("locks"), document.get("target")
     n, axes, names = len(joints), str(target.get("axes") if isinstance(target, dict) else ""), [one["name"] for one in joints]
-    rows = ROWS.get(f"{document['task']} {axes}")
-    need(rows, f"task and axes of the target must be one of: {', '.join(ROWS)}")
     need(1 <= n <= MOST_JOINTS and len(set(names)) == n, f"there must be 1 to {MOST_JOINTS} joints of different names")
     need(all(x.isprintable() and x and len(x) <= 200 for x in names), "joints must have names of 1 to 200 letters to print")
+    turning = all(joint["type"] == "revolute" for joint in joints)
+    if document["kind"] == "ceiling":
+        need(turning and document["task"] in SIX, f"ceilings are of joints that turn, and of {' and '.join(SIX)}")
+        _fit(document, {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "locks": [range(n), ...], "tree": TEXT,
+                        "best": [NUMBER, n], **COMMON}, "the certificate")  # fmt: skip
+        _within(document["joint_box"], [joint["limits"] for joint in joints], "joint_box")
+        need(1e-6 <= real(document["threshold"]) < 1, "threshold must be from 1e-6 to 1")
+    elif document["kind"] == "structural-zero":
+        snapped = [{"rotation": [WHOLE, 4], "origin": [RATIONAL, 3]}, n]
+        need(n > 2 and turning, "structural zeros are of joints that turn")
+        _fit(document, {"locked": range(1, n - 1), "snapped": snapped, "points": [RATIONAL, n], **COMMON}, "the certificate")
+        need(document["task"] == "pose", "structural zeros are of the pose")
+        need(all(any(int(x) for x in frame["rotation"]) for frame in document["snapped"]), "a quaternion is 0")
+    else:
+        _check_targets(document, joints, target, locks, axes, turning)
+    need(
+        document["kind"] not in ("bundle", "ceiling") or (locks and locks == sorted(set(locks))),
+        "locks must be in order, each once",
+    )
+    for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
+        need(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
+
+
+def _check_targets(document: dict[str, Any], joints: list[Any], target: Any, locks: Any, axes: str, turning: bool) -> None:
+    n, rows = len(joints), ROWS.get(f"{document['task']} {axes}")
+    need(rows, f"task and axes of the target must be one of: {', '.join(ROWS)}")
     turned: Any = [NUMBER, 9] if rows == 6 and axes == "xyz" else None
     form = {"target": {"axes": axes, "box": [[NUMBER, 2], len(axes)], "orientation": turned}, "limits": [LIMITS, n], **COMMON}
     if document["kind"] == "bundle":
@@ -156,8 +210,13 @@ def _check(document: dict[str, Any]) -> None:
         form |= {"working_ranges": [LIMITS, n], "locks": [range(n), ...]}
         form |= {"parts": [part, len(locks) + 1 if isinstance(locks, list) else 0]}
     else:
-        form |= {"locked": range(-1, n), "angle": None if document.get("locked") == -1 else [NUMBER, 2]}
-        form |= {"tree": TEXT, "centres": TEXT, "unit": re.escape(UNIT.hex()), "refutations": [..., 0]}
+        form |= {"locked": range(-1, n), "angle": None if document.get("locked") == -1 else [NUMBER, 2], "tree": TEXT}
+    if document["kind"] == "reach":
+        form |= {"centres": TEXT, "unit": re.escape(UNIT.hex()), "refutations": [..., 0]}
+    if document["kind"] == "refutation":
+        need(rows != 6 and turning, "refutations are of positions, and of joints that turn")
+        lemma = {"link": range(n), "point": [NUMBER, 3], "least": NUMBER, "most": NUMBER, "tree": TEXT}
+        form |= {"lemmas": [lemma, ...], "witness": [NUMBER, n] if document.get("witness") else None}
     _fit(document, form, "the certificate")
     limits = document["limits"]
     _within(limits, [joint["limits"] for joint in joints], "limits")
@@ -165,9 +224,6 @@ def _check(document: dict[str, Any]) -> None:
     _within(document.get("working_ranges", limits), limits, "working_ranges")
     if document.get("angle"):
         _within([document["angle"]], [limits[document["locked"]]], "angle")
-    need(document["kind"] == "reach" or (locks and locks == sorted(set(locks))), "locks must be in order, each once")
-    for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
-        need(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
 
 
 def unpacked(text: str, most: int, what: str) -> bytes:
@@ -181,13 +237,13 @@ def unpacked(text: str, most: int, what: str) -> bytes:
     return data
 
 
-def cells(tree: bytes, axes: int) -> Iterator[tuple[int, Cell]]:
-    """Token and cell of each leaf, in the order of the tree."""
+def cells(tree: bytes, axes: int, last: int = 2, locks: int = 256) -> Iterator[tuple[int, Cell]]:
+    """Token and cell of each leaf, in the order of the tree; tokens up to the last are those of leaves, and from ``locks``."""
     waiting: list[Cell] = [((0, 0),) * axes]
     for token in tree:
         need(waiting, "the tree goes on behind its end")
         cell, axis = waiting.pop(), token - SPLIT
-        if token <= 2:
+        if token <= last or token >= locks:
             yield token, cell
             continue
         good = 0 <= axis < axes and sum(d for _, d in cell) < MOST_DEPTH
@@ -241,14 +297,19 @@ def _turn(axis: int, angle: Any) -> Any:
     return flint.arb_mat(turn)
 
 
-def _rotation(numbers: list[str]) -> Any:
-    """Balls around nine numbers that hold the nearest rotation: it is nearer than the defect |R'R - I| (Frobenius)."""
+def _defect(numbers: list[str]) -> float:
+    """Above |R'R - I| (Frobenius): the nearest rotation is nearer than that."""
     matrix = flint.arb_mat(3, 3, [real(x) for x in numbers])
     gram = (matrix.transpose() * matrix - _turn(0, flint.arb(0))).entries()
     defect = math.hypot(*(_above(abs(x)) for x in gram)) * UP
     good = defect < 1e-12 and matrix.det() > 0
     need(good, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
-    return flint.arb_mat(3, 3, [flint.arb(real(x), defect) for x in numbers])
+    return defect
+
+
+def _rotation(numbers: list[str]) -> Any:
+    """Balls around nine numbers that hold the nearest rotation."""
+    return flint.arb_mat(3, 3, [flint.arb(real(x), _defect(numbers)) for x in numbers])
 
 
 class Leaves:
@@ -264,7 +325,8 @@ class Leaves:
         self.slides = np.array([joint["type"] == "prismatic" for joint in joints])
         ends = [*target["box"], *([document["angle"]] if self.locked >= 0 else [])]
         self.low, high = ([flint.fmpq(*real(pair[end]).as_integer_ratio()) for pair in ends] for end in (0, 1))
-        self.angle = max((abs(real(x)) for x in document["angle"] or ()), default=0.0)  # of the locked joint, largest
+        # How far a locked slide is out, at most.
+        self.out = max((abs(real(x)) for x in document["angle"] or () if self.slides[self.locked]), default=0.0)
         self.width = [b - a for a, b in zip(self.low, high, strict=True)]
         frames = [*joints, document["arm"]["tool"]]
         self.rotations = [_rotation(frame["rotation"]) for frame in frames]
@@ -311,12 +373,12 @@ class Leaves:
         rows = by_joint.tolist()[: self.linear]
         if self.m == 6:
             # E is the identity where vee E = 0 and it turns by less than pi, of which its trace here and the angles of the
-            # leaf make sure. Turning the target turns E from the right: axes -E b, the last first.
-            roll, pitch, yaw = (_turn(axis, centre[3 + i] if self.turning else arb(0)) for i, axis in enumerate((2, 1, 0)))
-            off = turn * (roll * pitch * yaw if self.wanted is None else self.wanted).transpose()
+            # leaf make sure. Turning the target turns E from the right: axes -E b, roll's first.
+            roll, pitch, yaw = (_turn(axis, centre[3 + axis] if self.turning else arb(0)) for axis in range(3))
+            off = turn * (yaw * pitch * roll if self.wanted is None else self.wanted).transpose()
             if self.turning:
-                third, middle = [row[0] for row in (roll * pitch).tolist()], [row[1] for row in roll.tolist()]
-                turns[self.n :] = [(-off * mat(3, 1, b)).entries() for b in (third, middle, [0, 0, 1])]
+                about_x, about_y = [row[0] for row in (yaw * pitch).tolist()], [row[1] for row in yaw.tolist()]
+                turns[self.n :] = [(-off * mat(3, 1, b)).entries() for b in (about_x, about_y, [0, 0, 1])]
             by_turn = mat(turns).transpose()
             second = mat([row for z in turns for row in _vee(_skew(z) * off).tolist()]) * by_turn
             error += [(off[2, 1] - off[1, 2]) / 2, (off[0, 2] - off[2, 0]) / 2, (off[1, 0] - off[0, 1]) / 2]
@@ -331,7 +393,7 @@ class Leaves:
         inverse = np.linalg.pinv(np.nan_to_num(first[:, :, self.free]))
         made = np.zeros((len(first), self.n + self.turning, p + fixed + self.m))
         made[:, self.free, : self.linear], made[:, self.free, p + fixed :] = inverse[:, :, : self.linear], inverse
-        follow = {axis: self.n + 5 - axis for axis in range(3, p)} | ({p: self.locked} if fixed else {})
+        follow = {axis: self.n + axis - 3 for axis in range(3, p)} | ({p: self.locked} if fixed else {})
         for axis, variable in follow.items():
             made[:, variable, axis] = 1
             made[:, self.free, axis] = -np.einsum("lfm,lm->lf", inverse, first[:, :, variable])
@@ -355,7 +417,7 @@ class Leaves:
         far = (reach @ w[:, :, None])[:, :, 0] * UP
         angle = np.cumsum(far * np.append(~self.slides, [True] * self.turning), axis=1) * UP
         c, slid = angle[:, : self.n], far[:, : self.n] * self.slides
-        third = (c**3 * (self.lengths + np.maximum(abs(q), self.angle) * self.slides + slid) + 3 * c**2 * slid).sum(axis=1) / 6
+        third = (c**3 * (self.lengths + np.maximum(abs(q), self.out) * self.slides + slid) + 3 * c**2 * slid).sum(axis=1) / 6
         rest = np.stack([third] * self.linear + [angle[:, -1] ** 3 / 6] * (self.m - self.linear), axis=1)
         rest += (slope @ w[:, :, None])[:, :, 0] + ((mixed @ w[:, None, :, None])[..., 0] * w[:, None]).sum(axis=2)
         high, low = ((rest + (x @ w[:, :, None] ** 2)[:, :, 0] / 2) * UP for x in (up, down))
@@ -383,6 +445,392 @@ class Leaves:
         return len(chunk), [cell for (cell, _), proved in zip(chunk, good, strict=True) if not proved]
 
 
+def exact_rotation(quaternion: Iterable[int]) -> list[list[Fraction]]:
+    """The rotation of a quaternion (w, x, y, z) of whole numbers, of any length but 0."""
+    w, x, y, z = quaternion
+    rows = [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]]  # fmt: skip
+    return [[Fraction(value, w * w + x * x + y * y + z * z) for value in row] for row in rows]
+
+
+def snap(document: dict[str, Any]) -> tuple[float, float]:
+    """Above the angle, rad, and the distance, m, between frames of a structural zero and those of the file."""
+    turned, shifted = 0.0, 0.0
+    for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
+        exact = [x for row in exact_rotation(map(int, frame["rotation"])) for x in row]
+        off = sum((a - Fraction(real(b))) ** 2 for a, b in zip(exact, joint["rotation"], strict=True))
+        need(off < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
+        # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
+        turned = max(turned, math.sqrt(off) / math.sqrt(2) * 1.0001)
+        far = sum((Fraction(a) - Fraction(real(b))) ** 2 for a, b in zip(frame["origin"], joint["origin"], strict=True))
+        shifted = max(shifted, math.sqrt(far) * UP)
+    return turned, shifted
+
+
+def _structural_zero(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    """Each pair of neighbouring axes before the joint, and each behind it, has the point in common that both name."""
+    began, n, k = time.perf_counter(), len(document["snapped"]), document["locked"]
+    points = [Fraction(x) for x in document["points"]]
+    pairs, good = [i for i in range(1, n) if i not in (k, k + 1)], 0
+    for i in pairs:
+        turn = exact_rotation(map(int, document["snapped"][i]["rotation"]))
+        place = [Fraction(x) + row[2] * points[i] for x, row in zip(document["snapped"][i]["origin"], turn, strict=True)]
+        good += place == [0, 0, points[i - 1]]
+    tell(len(pairs))
+    _agree(document, Fraction(0))
+    return Verdict(
+        document=document, leaves=len(pairs), accepted=good, rejected=len(pairs) - good, seconds=time.perf_counter() - began,
+        undecided=Fraction(int(good < len(pairs))), shadow=frozenset(),
+    )  # fmt: skip
+
+
+class Balls:
+    """An array of true numbers, each within ``off`` of ``at``."""
+
+    def __init__(self, at: Any, off: Any = 0.0) -> None:
+        self.at: Array = np.asarray(at, dtype=np.float64)
+        self.off: Array = np.broadcast_to(np.asarray(off, dtype=np.float64), self.at.shape)
+
+    def __getitem__(self, key: Any) -> Balls:
+        return Balls(self.at[key], self.off[key])
+
+    def __neg__(self) -> Balls:
+        return Balls(-self.at, self.off)
+
+    def __add__(self, other: Balls) -> Balls:
+        at = self.at + other.at
+        return Balls(at, (self.off + other.off + 2.0**-52 * abs(at)) * UP + LEAST)
+
+    @property
+    def size(self) -> Array:
+        """Above the absolute values."""
+        return (abs(self.at) + self.off) * UP
+
+    @property
+    def low(self) -> Array:
+        """Below the numbers."""
+        return np.nextafter(self.at - self.off, -np.inf)
+
+
+def times(form: str, a: Balls, b: Balls) -> Balls:
+    """A product of arrays, as of ``einsum``, whose sums have at most 15 terms: each is off by less than 16 roundings."""
+    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-48 * abs(a.at), abs(b.at))))
+    return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
+
+
+def crossed(a: Balls) -> Balls:
+    """The matrices (..., 3, 3) that take b to a x b."""
+    made = [np.zeros((*a.at.shape, 3)) for _ in range(2)]
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        for x, given, sign in ((made[0], a.at, -1.0), (made[1], a.off, 1.0)):
+            x[..., i, j], x[..., j, i] = sign * given[..., k], given[..., k]
+    return Balls(*made)
+
+
+def length(x: Array, axis: int = 1) -> Array:
+    """Above the lengths of vectors."""
+    return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
+
+
+def stacked(parts: list[Balls], axis: int) -> Balls:
+    """Along a new axis."""
+    return Balls(np.stack([x.at for x in parts], axis), np.stack([x.off for x in parts], axis))
+
+
+def bent(slope: Array, second: Balls, half: Array) -> Array:
+    """Above what slopes (their sizes) and second derivatives, by pairs j <= k, take from a number within half widths."""
+    own, pairs = np.diagonal(second.low, axis1=1, axis2=2), np.triu(second.size, 1)
+    most = np.where(slope < own * half, slope**2 / (2 * own), slope * half - own * half**2 / 2)
+    return np.asarray((most.sum(axis=1) + np.einsum("nj,njk,nk->n", half, pairs, half)) * UP + LEAST)
+
+
+class Boxes:
+    """Boxes of joints, and of targets behind them."""
+
+    def __init__(self, arm: dict[str, Any], ends: list[list[float]], flat: bool) -> None:
+        frames, self.n = [*arm["joints"], arm["tool"]], len(arm["joints"])
+        self.low, self.width = [Fraction(low) for low, _ in ends], [Fraction(high) - Fraction(low) for low, high in ends]
+        self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
+        self.turns = [Balls([real(x) for x in frame["rotation"]], _defect(frame["rotation"])) for frame in frames]
+        self.turns = [Balls(turn.at.reshape(3, 3), turn.off.reshape(3, 3)) for turn in self.turns]
+        if flat:  # all that moves, moves in the plane: heights count nothing
+            about = [turn.at for turn in self.turns[:-1]]
+            good = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in about)
+            need(good, "a planar task is one of arms that stay in the plane")
+            self.origins = [x * [1, 1, 0] for x in self.origins]
+        self._known: dict[tuple[int, tuple[int, int]], tuple[float, ...]] = {}
+
+    def middles(self, axis: int, parts: Iterable[tuple[int, int]]) -> Array:
+        """Of parts of an axis the middle, a bound of its error, the half width above, sine and cosine (parts, 5)."""
+        found = []
+        for part in parts:
+            if (axis, part) not in self._known:
+                k, d = part
+                exact, half = self.low[axis] + self.width[axis] * Fraction(2 * k + 1, 2 << d), self.width[axis] / (2 << d)
+                sine, cosine = flint.arb(flint.fmpq(exact.numerator, exact.denominator)).sin_cos()
+                need(max(_above(sine.rad()), _above(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
+                middle, above = float(exact), math.nextafter(float(half), math.inf)
+                self._known[axis, part] = middle, 2.0**-52 * abs(middle), above, float(sine), float(cosine)
+            found.append(self._known[axis, part])
+        return np.array(found)
+
+    def moved(self, first: int, end: Array, joints: list[Array]) -> tuple[Balls, Balls, Balls, Array]:
+        """A point of a link seen from another, the axes between, points on these, and the lengths that joints carry."""
+        count, last = len(joints[0]) if joints else 1, first + len(joints)
+        tip, turn = Balls(np.zeros((count, 3))), Balls(np.broadcast_to(np.eye(3), (count, 3, 3)))
+        axes, places, lengths = [], [], np.zeros(len(joints))
+        for k, joint in enumerate(joints, first):
+            tip, turn = tip + times("nij,j->ni", turn, Balls(self.origins[k])), times("nij,jk->nik", turn, self.turns[k])
+            axes.append(turn[:, :, 2])
+            places.append(tip)
+            about = np.zeros((count, 3, 3))
+            about[:, 0, 0] = about[:, 1, 1] = joint[:, 4]
+            about[:, 1, 0], about[:, 0, 1], about[:, 2, 2] = joint[:, 3], -joint[:, 3], 1
+            turn = times("nij,njk->nik", turn, Balls(about, 2.0**-52))
+            whole = Balls((end if k + 1 == last else self.origins[k + 1]) * [1, 1, 0])
+            if k + 1 < last:
+                after = end if k + 2 == last else self.origins[k + 2]
+                whole += times("ij,j->i", self.turns[k + 1], Balls(after * [0, 0, 1]))
+            lengths[k - first] = math.hypot(*whole.size) * UP
+        tip += times("nij,j->ni", turn, Balls(end))
+        none = Balls(np.zeros((count, 0, 3)))
+        return tip, stacked(axes, 1) if joints else none, stacked(places, 1) if joints else none, lengths
+
+    def at(self, q: list[str]) -> list[Array]:
+        """Joint values as :meth:`moved` takes them: one row for each."""
+        values = [real(x) for x in q]
+        need(max(map(abs, values)) < 100, "a configuration turns by more than 100 rad")
+        return [np.array([[x, 0, 0, *(float(y) for y in flint.arb(x).sin_cos())]]) for x in values]
+
+
+def columns(tip: Balls, z: Balls, places: Balls) -> Balls:
+    """Derivatives of a point by the joints."""
+    return times("nkij,nkj->nki", crossed(z), tip[:, None] + -places)
+
+
+class Apart(Boxes):
+    """The leaves of a refutation: the tool is not where the target is."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given = document | {"tree": ""}
+        limits, target, lemmas = list(document["limits"]), document["target"], document["lemmas"]
+        if document["locked"] >= 0:
+            limits[document["locked"]] = document["angle"]
+        full, ends = math.nextafter(math.pi, 4), [[real(x) for x in pair] for pair in limits]
+        ends = [[low, high] if high - low < 2 * math.pi else [-full, full] for low, high in ends]
+        self.rows = len(target["axes"])
+        super().__init__(document["arm"], [*ends, *([real(x) for x in pair] for pair in target["box"])], self.rows == 2)
+        self.points = [np.array([real(x) for x in lemma["point"]]) * [1, 1, self.rows > 2] for lemma in lemmas]
+        self.links = [lemma["link"] for lemma in lemmas]
+        self.least, self.most = ([real(lemma[key]) for lemma in lemmas] for key in ("least", "most"))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Apart, (self._given,)
+
+    def nearest(self, v: Balls, z: Balls, columns: Balls, lengths: Array, half: Array, wide: Array) -> Array:
+        """Below the distance: along a direction e, of length 1 at most, whichever it is; two are tried."""
+        swept = np.concatenate([columns.at * half[:, :, None], np.eye(3) * wide[:, None]], axis=1)
+        spread = np.einsum("nka,nkb->nab", swept, swept) + 1e-6 * np.eye(3) * (v.at**2).sum(axis=1)[:, None, None]
+        steep = np.linalg.solve(spread + 1e-30 * np.eye(3), v.at[:, :, None])[:, :, 0]
+        third, best = (np.cumsum(half, axis=1) ** 3 * lengths).sum(axis=1) / 6, np.full(len(v.at), -np.inf)
+        for along in (v.at, steep):
+            e = along / np.sqrt((along**2).sum(axis=1))[:, None] * (1 - 1e-12)
+            e = Balls(np.where(((e**2).sum(axis=1) < 1 - 1e-13)[:, None], e, 0.0))
+            slope = times("na,nka->nk", e, columns).size
+            second = times("nja,nka->njk", times("nkij,nj->nki", -crossed(z), e), columns)
+            loss = bent(slope, second, half) + (abs(e.at) * wide).sum(axis=1) + third
+            best = np.maximum(best, np.nextafter(times("na,na->n", e, v).low - loss * UP, -np.inf))
+        return best
+
+    def farthest(self, v: Balls, z: Balls, columns: Balls, lengths: Array, half: Array, wide: Array) -> Array:
+        """Above the distance, from half its square: its third derivative is at most 3 |t'| |t''| + |t| times the point's."""
+        count, joints = half.shape
+        back = Balls(np.broadcast_to(-np.eye(3), (count, 3, 3)))
+        whole = Balls(np.concatenate([columns.at, back.at], axis=1), np.concatenate([columns.off, back.off], axis=1))
+        bend = times("nja,nka->njk", times("nkij,nj->nki", -crossed(z), v), columns)
+        second = times("nja,nka->njk", whole, whole)
+        second.off = second.off.copy()
+        inner = second[:, :joints, :joints] + bend
+        second.at[:, :joints, :joints], second.off[:, :joints, :joints] = inner.at, inner.off
+        width, d = np.concatenate([half, wide], axis=1), length(v.size)
+        c = np.cumsum(half, axis=1)
+        one, two, three = ((c**power * lengths).sum(axis=1) for power in (1, 2, 3))
+        one += length(wide)
+        total = bent(times("na,nka->nk", v, whole).size, -second, width) + (3 * one * two + (d + one) * three) / 6
+        return np.asarray(np.nextafter(np.sqrt((d**2 + 2 * total) * UP), np.inf))
+
+    def excluded(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves of the tree: by a lemma, or by none (-1), in which case the distance of the tool itself must be above 0."""
+        last, end = (self.links[which], self.points[which]) if which >= 0 else (self.n, self.origins[-1])
+        joints = [self.middles(k, (cell[k] for cell in parts)) for k in range(last)]
+        axes = [self.middles(self.n + a, (cell[self.n + a] for cell in parts)) for a in range(self.rows)]
+        axes += [np.zeros((len(parts), 5))] * (3 - self.rows)
+        target = stacked([Balls(-axis[:, 0], axis[:, 1]) for axis in axes], 1)
+        half = np.stack([joint[:, 2] for joint in joints], 1) if joints else np.zeros((len(parts), 0))
+        tip, z, places, lengths = self.moved(0, end, joints)
+        moves = columns(tip, z, places)
+        if not joints:
+            z = moves = Balls(np.zeros((len(parts), 0, 3)))
+        given = tip + target, z, moves, lengths, half, np.stack([axis[:, 2] for axis in axes], 1)
+        least, most = (self.least[which], self.most[which]) if which >= 0 else (0.0, 0.0)
+        return np.asarray((self.nearest(*given) > most) | (self.farthest(*given) < least))
+
+    def keeps(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves of a lemma: whether the tool keeps its distance from the point."""
+        first, point = self.links[which], self.points[which]
+        joints = [self.middles(first + k, (cell[k] for cell in parts)) for k in range(self.n - first)]
+        tip, z, places, lengths = self.moved(first, self.origins[-1], joints)
+        half, there = np.stack([joint[:, 2] for joint in joints], 1), Balls(np.broadcast_to(point, (len(parts), 3)))
+        # Where the first axes pass by the point at a distance, turning about these changes the tool's by so much at most.
+        aside, still = np.zeros(len(parts)), np.ones(len(parts), dtype=bool)
+        by = times("nkij,nkj->nki", crossed(z), there[:, None] + -places).size
+        for k in range(len(joints)):
+            cost = length(by[:, k]) * np.minimum(half[:, k], 2) * UP
+            still &= cost < 1e-6
+            half[:, k], aside = np.where(still, 0.0, half[:, k]), (aside + np.where(still, cost, 0.0)) * UP
+        given = tip + -there, z, columns(tip, z, places), lengths, half, np.zeros((len(parts), 3))
+        near, far = np.nextafter(self.nearest(*given) - aside, -np.inf), np.nextafter(self.farthest(*given) + aside, np.inf)
+        return np.asarray(((near >= self.least[which]) | (self.least[which] <= 0)) & (far <= self.most[which]))
+
+    def holds(self, witness: list[str]) -> bool:
+        """Whether a configuration is one of those that are meant, and its tool in the box of targets."""
+        q, given = [real(x) for x in witness], self._given
+        ranges = [given["angle"] if k == given["locked"] else pair for k, pair in enumerate(given["limits"])]
+        within = all(real(pair[0]) <= x <= real(pair[1]) for x, pair in zip(q, ranges, strict=True))
+        tip = self.moved(0, self.origins[-1], self.at(witness))[0]
+        sides = [[real(x) for x in pair] for pair in given["target"]["box"]]
+        low, high = tip.low[0], -(-tip).low[0]
+        inside = all(a <= x and y <= b for (a, b), x, y in zip(sides, low, high, strict=False))
+        return within and inside
+
+    def rejected(self, chunk: list[tuple[Cell, tuple[int, int]]]) -> tuple[int, list[tuple[Cell, tuple[int, int]]]]:
+        """How many leaves were checked, and which of them prove nothing; each with its tree, -1 the main one, and its lemma."""
+        bad = list[tuple[Cell, tuple[int, int]]]()
+        with flint.ctx.workprec(64), np.errstate(all="ignore"):
+            for kind in sorted({kind for _, kind in chunk}):
+                parts = [cell for cell, other in chunk if other == kind]
+                good = self.excluded(kind[1], parts) if kind[0] < 0 else self.keeps(kind[0], parts)
+                bad += [(cell, kind) for cell, fine in zip(parts, good, strict=True) if not fine]
+        return len(chunk), bad
+
+
+class Wrenches(Boxes):
+    """The leaves of a ceiling of relative manipulability."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given = document | {"tree": ""}
+        ends = [[real(x) for x in pair] for pair in document["joint_box"]]
+        super().__init__(document["arm"], ends, document["task"] == "planar-pose")
+        self.most, self.rows, self.locks = real(document["threshold"]), SIX[document["task"]], document["locks"]
+        line, column = np.indices(
+            (self.n, self.n)
+        )  # joint j moves axis l, seen from link n/2: one way behind it, the other before
+        self.middle = self.n // 2
+        behind, before = (column >= self.middle) & (column < line), (column < self.middle) & (column > line)
+        self.sign = 1.0 * behind - 1.0 * before
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Wrenches, (self._given,)
+
+    def screws(self, joints: list[Array]) -> tuple[Balls, Balls, Array, Array]:
+        """Axes, moments of these about a point on the middle one, and distances: from axis to axis, and to the point."""
+        _, z, places, _ = self.moved(0, self.origins[-1], joints)
+        path = [places[:, k] for k in range(self.n)]
+        links, order = np.zeros((len(places.at), self.n)), [*range(self.middle + 1, self.n), *range(self.middle - 1, -1, -1)]
+        for j in order:  # any point of an axis will do: one that is near the one before
+            last = path[j - 1 if j > self.middle else j + 1]
+            along = np.nan_to_num(((last.at - path[j].at) * z.at[:, j]).sum(axis=1))
+            path[j] += times("n,na->na", Balls(along), z[:, j])
+            links[:, j] = length((path[j] + -last).size)
+        away = stacked(path, 1) + -path[self.middle][:, None]
+        return z, times("nlij,nlj->nli", crossed(away), z), links, length(away.size, 2)
+
+    def third(self, y: Array, turn: Array, links: Array, away: Array, half: Array) -> Array:
+        """Above what is left of the moments behind first and second order."""
+        c, v = half @ abs(self.sign).T, np.zeros((3, *links.shape))
+        for j in range(self.n):
+            between = slice(self.middle, j) if j > self.middle else slice(j + 1, self.middle)
+            for r in range(3 if j not in (self.middle, self.middle - 1) else 0):
+                carried = slice(j, self.n) if j > self.middle else slice(0, j + 1)
+                v[r, :, carried] += (links[:, j] * half[:, between].sum(axis=1) ** (r + 1))[:, None]
+        far, (moment, force) = away + v[0], (length(x)[:, None] for x in (y[:, :3], y[:, 3:]))
+        more = [(length(x) * half).sum(axis=1)[:, None] for x in (turn[:, :3], turn[:, 3:])]
+        first = force * (v[2] + 3 * v[1] * c + 3 * v[0] * c**2 + far * c**3) + moment * c**3
+        return np.asarray((first / 6 + (more[1] * (v[1] + 2 * v[0] * c + far * c**2) + more[0] * c**2) / 2) * UP + LEAST)
+
+    def wrench(self, own: Array, others: Array, moved: Array, half: Array, k: int) -> tuple[Array, Array]:
+        """Any wrench y (leaves, 6), and how it follows the joints (leaves, 6, n): such that other moments hardly change."""
+        counts = half * self.sign.any(axis=0)
+        gram = np.einsum("nla,nlb->nab", others, others) + 0.01 * (counts.max(axis=1) ** 2)[:, None, None] * np.eye(6)
+        gram += 1e-30 * np.eye(6)
+        y = np.linalg.solve(gram, own[:, :, None])[:, :, 0]
+        y = y / (y * own).sum(axis=1)[:, None]
+        slopes = np.einsum("nljb,nb->nlj", moved, y)
+        turn = -np.linalg.solve(gram, np.einsum("nla,nlj->naj", others, np.delete(slopes, k, axis=1)))
+        turn = turn - y[:, :, None] * (np.einsum("na,naj->nj", own, turn) + slopes[:, k])[:, None]
+        return np.nan_to_num(y), np.nan_to_num(turn)
+
+    def costs(self, k: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves: whether a lock of joint k costs enough."""
+        joints = [self.middles(j, (cell[j] for cell in parts)) for j in range(self.n)]
+        half = np.stack([joint[:, 2] for joint in joints], 1)
+        z, v, links, away = self.screws(joints)
+        screws = Balls(np.concatenate([z.at, v.at], 2), np.concatenate([z.off, v.off], 2))
+        # The derivative of screw l by joint j is the bracket of screws j and l, and so on with joints nearer the middle.
+        turned, shifted = times("njab,nlb->njla", crossed(z), z), times("njab,nlb->njla", crossed(z), v)
+        shifted += times("njab,nlb->njla", crossed(v), z)
+        bracket = Balls(np.concatenate([turned.at, shifted.at], 3), np.concatenate([turned.off, shifted.off], 3))
+        sign = self.sign[:, :, None]
+        moved = Balls(bracket.at.transpose(0, 2, 1, 3) * sign, bracket.off.transpose(0, 2, 1, 3) * abs(sign))
+        y, turn = self.wrench(screws.at[:, k], np.delete(screws.at, k, axis=1), moved.at, half, k)
+        wrench, turning = Balls(y), Balls(turn)
+        slope = times("nljb,nb->nlj", moved, wrench) + times("nla,naj->nlj", screws, turning)
+        force, moment = Balls(y[:, 3:]), Balls(y[:, :3])
+        down = -(times("nlab,nb->nla", crossed(z), moment) + times("nlab,nb->nla", crossed(v), force))
+        right = -times("nlab,nb->nla", crossed(z), force)
+        pulled = Balls(np.concatenate([down.at, right.at], 2), np.concatenate([down.off, right.off], 2))
+        twice = times("nia,njla->nlij", pulled, bracket)
+        mask = abs(self.sign[:, :, None] * self.sign[:, None])
+        inner = np.arange(self.n)[:, None, None] >= self.middle  # behind the middle the nearer joint has the lower number
+        twice = Balls(*(mask * np.where(inner, x, x.transpose(0, 1, 3, 2)) for x in (twice.at, twice.off)))
+        cross = times("nai,nlja->nlij", turning, moved)
+        pairs = np.triu((twice + cross + Balls(cross.at.transpose(0, 1, 3, 2), cross.off.transpose(0, 1, 3, 2))).size, 1)
+        own = (Balls(twice.at / 2, twice.off / 2) + cross).size * np.eye(self.n)
+        rest = (slope.size * half[:, None]).sum(axis=2) + np.einsum("ni,nlij,nj->nl", half, pairs + own, half)
+        rest = (rest + self.third(y, turn, links, away, half)) * UP
+        moments = times("nla,na->nl", screws, wrench)
+        others, least = (moments.size + rest) * UP, np.maximum(np.nextafter(moments.low - rest, -np.inf)[:, k], 0)
+        others[:, k], c = 0, self.most
+        high, low = (others**2).sum(axis=1) * ((1 - c) * (1 + c)) * UP, c**2 * least**2 * (1 - 1e-12)
+        return np.asarray((high < low) & (least > 1e-100))
+
+    def rejected(self, chunk: list[tuple[Cell, int]]) -> tuple[int, list[Cell]]:
+        """How many leaves were checked, and which of them prove nothing; each with the joint whose lock costs enough."""
+        bad = list[Cell]()
+        with flint.ctx.workprec(64), np.errstate(all="ignore"):
+            for k in sorted({k for _, k in chunk}):
+                parts = [cell for cell, other in chunk if other == k]
+                bad += [cell for cell, good in zip(parts, self.costs(k, parts), strict=True) if not good]
+        return len(chunk), bad
+
+    def occurs(self, q: list[str]) -> float:
+        """Below the least relative manipulability at a configuration: its square is 1 - J_k' (JJ')^-1 J_k."""
+        tip, z, places, _ = self.moved(0, self.origins[-1], self.at(q))
+        made = columns(tip, z, places)
+        values, errors = (np.concatenate([x[0], y[0]], 1).T[self.rows] for x, y in ((made.at, z.at), (made.off, z.off)))
+        jacobian = flint.arb_mat(
+            *values.shape, [flint.arb(float(x), float(e)) for x, e in zip(values.flat, errors.flat, strict=True)]
+        )
+        try:
+            solved = (jacobian * jacobian.transpose()).solve(jacobian)
+        except ZeroDivisionError:
+            return 0.0
+        kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
+        return min(math.sqrt(max(0.0, math.nextafter(float(x.lower()), -math.inf))) * (1 - 1e-15) for x in kept)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
     """What the check of a certificate found. What rejected leaves cover counts as undecided."""
@@ -395,6 +843,8 @@ class Verdict:
     undecided: Fraction  # of the root box; of a bundle in its worst part
     shadow: frozenset[Cell]  # cells of targets for which something is undecided
     parts: tuple[Verdict, ...] = ()
+    refuted: bool = False  # a configuration shows that the claim is false
+    occurs: float = 0.0  # of a ceiling: a value that is attained, or less
 
     @property
     def sampled(self) -> bool:
@@ -409,12 +859,105 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """What was found, for people: never rounded up to the whole or down to nothing."""
+        text = "Rejected: the witness is none."
+        if self.document.get("witness"):
+            at = ", ".join(repr(real(x)) for x in self.document["witness"])
+            return f"Refuted: at ({at}) the tool is in the box." if self.refuted else text
+        if self.document["kind"] == "ceiling":
+            at = ", ".join(repr(real(x)) for x in self.document["best"])
+            best = f"{math.floor(self.occurs * 1e6) / 1e6:.6f} occurs, at ({at})"
+            if self.refuted:
+                return f"Refuted: {best}."
         text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
+        text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
         text += " in the worst part" * bool(self.parts)
-        if self.document.get("locked") != -1:
+        if self.document["kind"] == "ceiling":
+            text += f" of the box; {best}"
+        elif self.document["kind"] != "structural-zero" and self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
+
+
+def _looked_at(leaves: Any, chosen: Iterator[Any], workers: int, tell: Callable[[int], None]) -> tuple[int, list[Any]]:
+    """How many leaves were checked, and those that were rejected."""
+    checked, rejected = 0, list[Any]()
+    with ExitStack() as stack:
+        spread: Callable[..., Iterable[tuple[int, list[Any]]]] = map
+        if workers > 1:
+            spread = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
+        for size, bad in spread(leaves.rejected, iter(lambda: list(islice(chosen, CHUNK)), [])):
+            checked, rejected = checked + size, rejected + bad
+            tell(size)
+    return checked, rejected
+
+
+def _agree(document: dict[str, Any], undecided: Fraction) -> None:
+    """The volumes of the file are those of its tree."""
+    volumes = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
+    written = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
+    need(document["volumes"] == written, "volumes are not those of the tree")
+
+
+def _picked(count: int, sample: int | None) -> Iterable[int]:
+    """The numbers of the leaves that are checked, ordered by chance or all."""
+    return range(count) if sample is None else frozenset(random.SystemRandom().sample(range(count), max(0, min(sample, count))))
+
+
+def _refutation(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    began, leaves, most = time.perf_counter(), Apart(document), 2 * MOST_LEAVES - 1
+    main, axes, last = unpacked(document["tree"], most, "tree"), leaves.n + leaves.rows, 2 + len(leaves.links)
+    need(last < SPLIT, f"there are more than {SPLIT - LEMMA} lemmas")
+    trees = [unpacked(lemma["tree"], most, "tree of a lemma") for lemma in document["lemmas"]]
+    undecided = [cell for token, cell in cells(main, axes, last) if token in (1, 2)]
+    need(not any(tree.count(token) for tree in trees for token in (1, 2)), "a lemma is not proved everywhere")
+    _agree(document, volume(undecided))
+    count = sum(tree.count(0) for tree in trees) + sum(main.count(token) for token in (PROVED, *range(LEMMA, last + 1)))
+
+    def proofs() -> Iterator[tuple[Cell, tuple[int, int]]]:
+        for k, tree in enumerate(trees):
+            yield from ((cell, (k, k)) for _, cell in cells(tree, leaves.n - leaves.links[k]))
+        yield from ((cell, (-1, max(token, 2) - LEMMA)) for token, cell in cells(main, axes, last) if token not in (1, 2))
+
+    if document["witness"]:
+        need(main == b"\2" and not trees, "beside a witness nothing is proved")
+        with flint.ctx.workprec(64):
+            count, checked, good = 1, 1, leaves.holds(document["witness"])
+        rejected = [] if good else [(undecided[0], (-1, -1))]
+    else:
+        good, picked = False, _picked(count, sample)
+        chosen = (proof for index, proof in enumerate(proofs()) if index in picked)
+        checked, rejected = _looked_at(leaves, chosen, workers, tell)
+        broken = {tree for _, (tree, _) in rejected if tree >= 0}
+        bad = {cell for cell, (tree, _) in rejected if tree < 0}
+        undecided += [cell for cell, (tree, which) in proofs() if tree < 0 and (which in broken or cell in bad)]
+    return Verdict(
+        document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected),
+        seconds=time.perf_counter() - began, undecided=volume(undecided), refuted=good,
+        shadow=frozenset(cell[leaves.n :] for cell in undecided),
+    )  # fmt: skip
+
+
+def _ceiling(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    began, leaves = time.perf_counter(), Wrenches(document)
+    with flint.ctx.workprec(64), np.errstate(all="ignore"):
+        inside = all(real(a) <= real(x) <= real(b) for x, (a, b) in zip(document["best"], document["joint_box"], strict=True))
+        need(inside, "the best configuration is outside of the box")
+        occurs = leaves.occurs(document["best"])
+    tree = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree")
+    undecided = [cell for token, cell in cells(tree, leaves.n, 2, LOCK) if token < LOCK]
+    locks = {LOCK + k for k in document["locks"]}
+    need(all(token < LOCK or token in locks for token in set(tree)), "a leaf names a joint that is not among the locks")
+    _agree(document, volume(undecided))
+    count = sum(tree.count(token) for token in locks)
+    picked = _picked(count, sample)
+    proofs = ((cell, token - LOCK) for token, cell in cells(tree, leaves.n, 2, LOCK) if token >= LOCK)
+    checked, rejected = _looked_at(leaves, (proof for i, proof in enumerate(proofs) if i in picked), workers, tell)
+    return Verdict(
+        document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), occurs=occurs,
+        seconds=time.perf_counter() - began, undecided=volume(undecided) + volume(rejected),
+        refuted=occurs > leaves.most, shadow=frozenset(),
+    )  # fmt: skip
 
 
 def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
@@ -426,20 +969,11 @@ def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Cal
     need(len(packed) == 4 * leaves.n * count, "there are fewer centres than leaves")
     centres = np.frombuffer(packed, "<i4").reshape(count, leaves.n)
     need(leaves.locked < 0 or not centres[:, leaves.locked].any(), "centres of the locked joint must be 0")
-    volumes = {"proved": 1 - open_part, "refuted": Fraction(0), "undecided": open_part}
-    written = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
-    need(document["volumes"] == written, "volumes are not those of the tree")
-    picked = set(range(count) if sample is None else random.SystemRandom().sample(range(count), max(0, min(sample, count))))
+    _agree(document, open_part)
+    picked = _picked(count, sample)
     proofs = zip((cell for token, cell in cells(tree, axes) if token == PROVED), centres, strict=True)
     chosen = (proof for index, proof in enumerate(proofs) if index in picked)
-    checked, rejected = 0, list[Cell]()
-    with ExitStack() as stack:
-        spread: Callable[..., Iterable[tuple[int, list[Cell]]]] = map
-        if workers > 1:
-            spread = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
-        for size, bad in spread(leaves.rejected, iter(lambda: list(islice(chosen, CHUNK)), [])):
-            checked, rejected = checked + size, rejected + bad
-            tell(size)
+    checked, rejected = _looked_at(leaves, chosen, workers, tell)
     return Verdict(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected),
         seconds=time.perf_counter() - began, undecided=open_part + volume(rejected),
@@ -460,8 +994,10 @@ def verify(
     need(flint is not None, "checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
     path, tell = Path(path), progress or (lambda size: None)
     document = load(path)
-    if document["kind"] == "reach":
-        return _reach(document, sample, workers, tell)
+    if document["kind"] != "bundle":
+        return {"reach": _reach, "refutation": _refutation, "ceiling": _ceiling, "structural-zero": _structural_zero}[
+            document["kind"]
+        ](document, sample, workers, tell)
     files, ranges = [load(path.parent / part["file"]) for part in document["parts"]], document["working_ranges"]
     same = {"kind": "reach"} | {key: document[key] for key in ("arm", "task", "target")}
     for part, file, locked in zip(document["parts"], files, [-1, *document["locks"]], strict=True):

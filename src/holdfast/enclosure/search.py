@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -22,6 +22,8 @@ from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Blocked = Callable[[Array, Array], Flags]
+"""Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
 
 ROUNDING = 1e-9  # m and rad by which every bound is widened; the kernel's own errors are 1e-13
 SMALLEST = 1e-6  # rad and m: a box no wider than this is not halved any more
@@ -68,6 +70,7 @@ class Configurations(Result):
         finding: What is known.
         q: (K, n) configurations found, rad and m.
         boxes: How many were looked at.
+        blocked: Of these, how many were left out as blocked: what is said to be absent is absent elsewhere.
         open: How many were left undecided.
         widest: Of these, the largest half width of a joint, rad or m; 0 if none is left.
         seconds: Measured.
@@ -84,6 +87,7 @@ class Configurations(Result):
     open: int
     widest: float
     seconds: float
+    blocked: int = 0
 
     @property
     def none(self) -> bool:
@@ -93,9 +97,10 @@ class Configurations(Result):
     def describe(self) -> list[str]:
         """A sentence for people."""
         left = f", {self.open:,} of them left, up to {2 * self.widest:.2g} wide" if self.open else ""
+        without = f", {self.blocked:,} of them blocked and left out" if self.blocked else ""
         return [
             f"{len(self.q)} configurations of '{self.arm.name}', task {self.task.name}: {self.finding.sentence}",
-            f"{self.boxes:,} boxes of joints{left}, {self.seconds:.2g} s",
+            f"{self.boxes:,} boxes of joints{without}{left}, {self.seconds:.2g} s",
         ]
 
 
@@ -111,6 +116,7 @@ def all_configurations(
     time_limit: float = 10.0,
     most_boxes: int = 20_000_000,
     first: bool = False,
+    blocked: Blocked | None = None,
 ) -> Configurations:
     """Every configuration of a pose within limits, or a proof that there is none.
 
@@ -129,6 +135,8 @@ def all_configurations(
         time_limit: s after which the answer is ``OPEN``.
         most_boxes: After which it is.
         first: One configuration ends the search.
+        blocked: Given boxes, centres (N, n) and half widths (N, n), says of which (N,) nothing counts, as where the arm
+            certainly is within an object: these are left out.
 
     Raises:
         InputError: A pose, limits or numbers that are invalid.
@@ -144,7 +152,7 @@ def all_configurations(
             f"tolerance is {tolerance:g}, time_limit {time_limit:g} and most_boxes {most_boxes}; give a finite tolerance of 0 "
             "or more, a time above 0 and 1 box or more"
         )
-    search = _Search(arm, rows, wanted, tolerance, low, high)
+    search = _Search(arm, rows, wanted, tolerance, low, high, blocked)
     begin = time.perf_counter()
     finding = search.run(begin + time_limit, most_boxes, first)
     return Configurations(
@@ -159,6 +167,7 @@ def all_configurations(
         open=search.open,
         widest=search.widest,
         seconds=time.perf_counter() - begin,
+        blocked=search.left_out,
     )
 
 
@@ -181,7 +190,9 @@ def _limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Array
 class _Search:
     """One search: a stack of boxes, the last of which are looked at first."""
 
-    def __init__(self, arm: Arm, task: Task, pose: Array, tolerance: float, low: Array, high: Array) -> None:
+    def __init__(
+        self, arm: Arm, task: Task, pose: Array, tolerance: float, low: Array, high: Array, blocked: Blocked | None
+    ) -> None:
         parts = Parts.of(arm, task)
         if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
             turned = pose[:3, :3] @ arm.forward_kinematics((low + high) / 2)[:3, :3].T @ parts.normal
@@ -190,7 +201,9 @@ class _Search:
         self._kernel: Kernel = box_kernel(arm, parts)
         self._given = pose[:3, 3], pose[:3, :3], np.full(parts.m, tolerance)
         self._turning = np.where(turning(arm, parts), _TURN, 0.0)
+        self._unseen = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
         if idle(arm, parts):
+            self._unseen[-1] = (high[-1] - low[-1]) / 2
             low, high = low.copy(), high.copy()
             low[-1] = high[-1] = (low[-1] + high[-1]) / 2
         self._free = high > low
@@ -200,7 +213,8 @@ class _Search:
         self._stack = [np.stack([(low + high) / 2, (high - low) / 2])[None]]
         self._small: list[Array] = []  # boxes that are not halved any more, (K, 2, n)
         self.found = np.zeros((0, arm.n))
-        self.boxes = 0
+        self.boxes = self.left_out = 0
+        self._blocked = blocked
 
     @property
     def _left(self) -> Array:
@@ -258,6 +272,10 @@ class _Search:
                 open_ &= ~held
         low, high, rho, before = low[open_], high[open_], rho[open_], half[open_]
         centre, half = centre[open_] + (low + high) / 2, np.where(self._free, (high - low) / 2, 0.0)
+        if self._blocked is not None and len(centre):
+            clear = ~self._blocked(centre, half + self._unseen)
+            self.left_out += len(clear) - int(clear.sum())
+            centre, half, rho, before = centre[clear], half[clear], rho[clear], before[clear]
         tiny = half.max(axis=1, initial=0.0) < SMALLEST
         if tiny.any():
             self._polish(centre[tiny], np.stack([centre[tiny], half[tiny]], axis=1))

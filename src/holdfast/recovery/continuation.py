@@ -14,6 +14,7 @@ from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too, me
 from holdfast.recovery.layers import JUMP, through_layers
 from holdfast.recovery.rows import RowSolver, preferred, subsets
 from holdfast.recovery.space import Metric, Space
+from holdfast.recovery.timing.motion import OFF_PATH
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
@@ -24,6 +25,8 @@ Flags = NDArray[np.bool_]
 _SPACING = 0.01  # m or rad of the end effector between samples
 _LEAST, _MOST = 20, 400  # samples
 _STARTS_PER_SET = 12
+_INNER = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
+_HALVED = 8  # times what is between two waypoints is, until it is near the path
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,8 +118,14 @@ def rest_of_path(
         graph = through_layers(solver, space, metric, poses, first, at, starts, rng)
         furthest = max(furthest, float(share[graph.last]))
         made, motions = replace(made, furthest=furthest, graph=graph.size), graph.motions
-    if motions:
-        return along(made, solver, path, motions[0]), motions
+    return (along(made, solver, path, motions[0]) if motions else made), motions
+
+
+def without_rows(
+    made: RestOfPath, solver: RowSolver, space: Space, path: Path, at: Array, rng: np.random.Generator
+) -> tuple[RestOfPath, list[Array]]:
+    """The same path with as few rows given up as possible, and the motion (S, n) for that, if there is one."""
+    poses = path.pose(made.share)
     for size in range(1, solver.rows.m):
         sets = [] if space.spent else subsets(solver.rows.m, size, [])
         best = _without(solver, space, poses, at, sets, rng) if sets else None
@@ -212,3 +221,28 @@ def along(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array
     middle = path.pose((made.share[1:] + made.share[:-1]) / 2)
     off = np.abs(solver.errors((q[1:] + q[:-1]) / 2, middle) * mask).max()
     return replace(made, q=q, deviation=float(off))
+
+
+def refined(made: RestOfPath, solver: RowSolver, space: Space, path: Path, q: Array) -> tuple[RestOfPath, Array] | None:
+    """The motion q (S, n) with more waypoints wherever it is far off the path between two; None if none is found there.
+
+    Where joints move fast, as beside a singular configuration, straight lines in joint space are no straight lines of the tool.
+    """
+    near = np.where(np.array(solver.rows.units) == "m", OFF_PATH[0] * max(solver.arm.length_unit, 1.0), OFF_PATH[1])
+    share, found = made.share, made.found
+    for _ in range(_HALVED):
+        inner = q[:-1, None] + _INNER[:, None] * np.diff(q, axis=0)[:, None]
+        places = share[:-1, None] + _INNER * np.diff(share)[:, None]
+        off = np.abs(solver.errors(inner.reshape(-1, q.shape[1]), path.pose(places.ravel()))).reshape(*places.shape, -1)
+        k = np.flatnonzero((off > near).any(axis=(1, 2)))
+        if not k.size:
+            return replace(along(replace(made, share=share, found=found), solver, path, q), q=q), q
+        middle, between = (share[k] + share[k + 1]) / 2, (q[k] + q[k + 1]) / 2
+        poses, kept = path.pose(middle), np.ones((len(k), solver.rows.m))
+        new = kept_too(solver, space, solver.run(between, poses, kept, space.free), poses, kept)
+        good = solver.meets(new, poses, kept, space.free)
+        good &= np.abs(new - between).max(axis=1) <= np.abs(q[k + 1] - q[k]).max(axis=1)  # else on another branch
+        if not (good.all() and space.edges(q[k], new).all() and space.edges(new, q[k + 1]).all()):
+            return None
+        q, share, found = np.insert(q, k + 1, new, axis=0), np.insert(share, k + 1, middle), np.insert(found, k + 1, True)
+    return None

@@ -23,11 +23,11 @@ from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.completion import completed
-from holdfast.recovery.continuation import RestOfPath, along, rest_of_path
+from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_path, without_rows
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.flood import disconnected, holds_configuration, may_meet
-from holdfast.recovery.proofs.reach import listed, proved_by, telling_first, unreachable
+from holdfast.recovery.proofs.reach import every_clear, telling_first, unreachable
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, Recovery
 from holdfast.recovery.remainder import what_is_left
@@ -39,6 +39,7 @@ from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
 from holdfast.regions.region import Region
 
 if TYPE_CHECKING:
+    from holdfast.enclosure import Configurations
     from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
@@ -248,8 +249,12 @@ class _Search:
         self._look("following the tool path")
         if not rest.finished:
             self._prove_of_path(rest.share, rest.found, path.pose(rest.share), here)
-        if not motions:
-            return rest
+            rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
+            self._look("looking for rows of the tool path to give up")
+        return self._reach(here, path, rest, motions) if motions else rest
+
+    def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
+        """The first of the motions along the path that can be reached, and is near it all the way."""
         route = self._route(here, np.stack([m[0] for m in motions]))
         self._look("looking for a route to the tool path")
         if route is None:
@@ -261,7 +266,10 @@ class _Search:
         if rest.graph:
             motion = shorter(self.solver, self.space, self.metric, path.pose(rest.share), motion)
         if rest.given_up is None:
-            rest = along(rest, self.solver, path, motion)
+            finer = refined(rest, self.solver, self.space, path, motion)
+            if finer is None and len(motions) > 1 and not self.space.spent:
+                return self._reach(here, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
+            rest, motion = finer or (along(rest, self.solver, path, motion), motion)
         motion = motion + (route.q[-1] - motion[0])  # whole turns
         if route.length > SAME:
             self._add("to the path", route.q, route.lower_bound, route.straight)
@@ -277,12 +285,15 @@ class _Search:
         tried = ((k, unreachable(self.solver, self.space.free, here, poses[k])) for k in order)
         hardest = [k for k in order if not found[k]][:_PROVED]
         made = self.made
-        boxes = ((k, listed(made.degraded, made.task, poses[k], self.space.seconds_left)) for k in hardest)
-        for k, proof in chain(broken, tried, ((k, proved_by(every, made.clearance)) for k, every in boxes)):
+        boxes = ((k, self._every(poses[k])[1]) for k in hardest)
+        for k, proof in chain(broken, tried, boxes):
             if proof is not None:
                 at = f"at {100 * share[k]:.1f} % of the tool path {proof}"
                 self.made = replace(made, proof=at, proof_kind="a pose of the path")
                 return
+
+    def _every(self, pose: Array) -> tuple[Configurations | None, str | None]:
+        return every_clear(self.made.degraded, self.made.task, pose, self.space, self.made.clearance)
 
     def _route(self, here: Array, goals: Array) -> Route | None:
         return find_route(self.space, self.metric, here, goals, self.tries, self.rng)
@@ -301,8 +312,8 @@ class _Search:
                 configurations_of(self.solver, self.space, self.metric, pose, here, made.starts, self.rng) for pose in aim.poses
             ]
             goals, owner = np.concatenate(each), np.repeat(np.arange(len(each)), [len(x) for x in each])
-        every = [] if len(goals) else [listed(made.degraded, made.task, pose, self.space.seconds_left) for pose in aim.poses]
-        for k, configurations in enumerate(every):
+        every = [] if len(goals) else [self._every(pose) for pose in aim.poses]
+        for k, (configurations, _) in enumerate(every):
             some = np.zeros((0, made.arm.n)) if configurations is None else configurations.q
             some = some[self.space.clear(some)] if len(some) else some
             goals, owner = np.concatenate([goals, some]), np.append(owner, np.full(len(some), k))
@@ -332,8 +343,7 @@ class _Search:
             why, closed_in = "; ".join(reasons), self.space.closed_in
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
-        boxes = [proved_by(found, made.clearance) for found in every]
-        proofs = [bound or box for bound, box in zip(bounds, boxes, strict=True)]
+        proofs = [bound or box for bound, (_, box) in zip(bounds, every, strict=True)]
         proof = None if None in proofs else proofs[0]
         pair = "" if proof else what_bars(self.solver, self.space, aim.poses[0], here, np.random.default_rng(made.seed))
         found = "no clear configuration" if pair else "no configuration"

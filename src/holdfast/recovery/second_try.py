@@ -21,13 +21,13 @@ _IN_THE_WAY = (
 def bolder(found: Recovery, again: Callable[[Clearance], Recovery]) -> Recovery:
     """What was found by the bound, or what is found once more by exact distances where that is better.
 
-    Not where the goal is proved infeasible and a motion without some of its rows was found.
+    Not where the goal, or the tool path, is proved infeasible and a motion without some of its rows was found.
 
     Args:
         found: By the bound.
         again: The same search with another clearance.
     """
-    proved = found.proof_kind in ("reach bound", "boxes") and found.given_up is not None
+    proved = found.proof_kind in ("reach bound", "boxes", "a pose of the path") and found.given_up is not None
     settled = proved or found.proof_kind == "disconnected"
     sharp = sharpened(found.clearance, found.margin) if found.ending in _IN_THE_WAY and not settled else None
     if sharp is None:

@@ -203,6 +203,12 @@ class Exactness:
         )
 
     @cached_property
+    def inner(self) -> tuple[FormulaObjects, list[Solid]]:
+        """Balls within the arm among what lies within the objects, and of which object each of that is."""
+        seen = self.obstacles
+        return self._within, [] if seen is None else [solid for solid in seen.cell for _ in solids_within(solid)]
+
+    @cached_property
     def _within(self) -> FormulaObjects:
         """What lies within the objects, seen from spheres within the arm: above the true distances, where below 0."""
         balls, seen = spheres_within(self.parts), self.obstacles

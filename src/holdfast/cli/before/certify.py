@@ -1,17 +1,20 @@
-"""``holdfast certify``: reach. ``holdfast certificate``: check, show."""
+"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling, structural-zero. ``holdfast certificate``: check, show."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
+import numpy as np
 import typer
 
 import holdfast as hf
+from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import (
     NOT_MET,
     ArmArgument,
     BaseOption,
+    FailuresOption,
     HoldOption,
     JsonOption,
     SeedOption,
@@ -20,10 +23,48 @@ from holdfast.cli.options import (
     read_by_joint,
     read_numbers,
 )
+from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
+from holdfast.failures.sets import read_failures
 from holdfast.present.results import printed
 
-REJECTED = 1  # exit code
+REJECTED, REFUTED = 1, 4  # exit codes
+BoxOption = Annotated[
+    str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
+]
+SizeOption = Annotated[
+    str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
+]
+LockOption = Annotated[
+    str | None,
+    typer.Option("--lock", help="JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy.", show_default=False),
+]
+LimitOption = Annotated[
+    list[str] | None,
+    typer.Option("--limit", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again.", show_default=False),
+]
+RotationOption = Annotated[
+    str | None,
+    typer.Option(
+        "--rotation",
+        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll). Default: it may be any.",
+        show_default=False,
+    ),
+]
+TurnsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--rotation-size",
+        help="Edges of a box of roll, pitch and yaw around --rotation, rad: one number, or three. Default: none.",
+        show_default=False,
+    ),
+]
+AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees (slides stay in m).")]
+HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
+TimeOption = Annotated[
+    float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
+]
+CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
 
 command = typer.Typer(
@@ -41,24 +82,16 @@ certificate = typer.Typer(
 @command.command()
 def reach(
     arm: ArmArgument,
-    box: Annotated[str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)],
-    size: Annotated[
-        str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
-    ],
-    lock: Annotated[
-        str | None,
-        typer.Option("--lock", help="JOINT=LOW..HIGH, rad: where it may be locked. Default: healthy.", show_default=False),
-    ] = None,
-    limit: Annotated[
-        list[str] | None,
-        typer.Option("--limit", help="JOINT=LOW..HIGH, rad: a working range. May be given again.", show_default=False),
-    ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="Angles are in degrees.")] = False,
-    halvings: Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")] = 8,
-    time_limit: Annotated[
-        float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
-    ] = None,
-    check: Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")] = True,
+    box: BoxOption,
+    size: SizeOption,
+    rotation: RotationOption = None,
+    rotation_size: TurnsOption = None,
+    lock: LockOption = None,
+    limit: LimitOption = None,
+    degrees: AnglesOption = False,
+    halvings: HalvingsOption = 8,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -68,7 +101,8 @@ def reach(
 ) -> None:
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
 
-    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something.
+    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -77,15 +111,198 @@ def reach(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
+        **_turned(rotation, rotation_size, degrees),
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    proof = hf.certify(claim, halvings=halvings, time_limit=time_limit, seed=seed)
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command("out-of-reach")
+def out_of_reach(
+    arm: ArmArgument,
+    box: BoxOption,
+    size: SizeOption,
+    lock: LockOption = None,
+    limit: LimitOption = None,
+    degrees: AnglesOption = False,
+    halvings: Annotated[int, typer.Option("--halvings", help="Of each joint and axis of the box, at most.")] = 16,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("out-of-reach.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that no point of a box is reached, healthy or wherever one joint locks in an interval.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 4 if a configuration is found whose tool is in the box, 1
+    if the check rejects something. Ctrl-C writes what is proved so far.
+
+    Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
+    """
+    model = read_arm(arm, base, tip, hold)
+    claim = hf.certificates.out_of_reach_claim(
+        model,
+        read_numbers("--box", box, "two or three numbers, m,"),
+        read_numbers("--size", size, "one number, or one for each axis, m,"),
+        locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
+        limits=_intervals(model, "--limit", limit or [], degrees),
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command()
+def tolerant(
+    arm: ArmArgument,
+    box: BoxOption,
+    size: SizeOption,
+    rotation: RotationOption = None,
+    rotation_size: TurnsOption = None,
+    ranges: Annotated[
+        Path | None,
+        typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m.", show_default=False),
+    ] = None,
+    range_: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--range",
+            help="JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits.",
+            show_default=False,
+        ),
+    ] = None,
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: HalvingsOption = 8,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
+        "certificates"
+    ),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far.
+
+    Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
+    """
+    model = read_arm(arm, base, tip, hold)
+    texts = [*(_ranges_of(ranges) if ranges is not None else []), *(range_ or [])]
+    claim = hf.certificates.tolerant_claim(
+        model,
+        read_numbers("--box", box, "two or three numbers, m,"),
+        read_numbers("--size", size, "one number, or one for each axis, m,"),
+        **_turned(rotation, rotation_size, degrees),
+        working_ranges=_intervals(model, "--range", texts, degrees),
+        failures=read_failures(model, failures),
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command()
+def ceiling(
+    arm: ArmArgument,
+    below: Annotated[float, typer.Option("--below", help="Threshold, between 0 and 1.", show_default=False)],
+    around: Annotated[
+        str | None,
+        typer.Option("--around", help="Middle of the box: a value of each joint, rad. Default: limits.", show_default=False),
+    ] = None,
+    within: Annotated[
+        str | None,
+        typer.Option("--within", help="Half widths of it, rad: one number, or one for each joint.", show_default=False),
+    ] = None,
+    limit: LimitOption = None,
+    task: Annotated[str, typer.Option("--task", help="pose; planar-pose for arms in a plane.")] = "pose",
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: Annotated[int, typer.Option("--halvings", help="Of each joint, at most.")] = 16,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("ceiling.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that relative manipulability is nowhere in a box of configurations above a threshold.
+
+    The best configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something is
+    undecided, 4 if that configuration is above the threshold, 1 if the check rejects something. Ctrl-C writes what is proved
+    so far.
+
+    Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
+    """
+    model = read_arm(arm, base, tip, hold)
+    box: dict[str | int, tuple[float, float]] = {}
+    if (around is None) != (within is None):
+        raise InputError("--around and --within go together: the middle of the box and its half widths")
+    if around is not None and within is not None:
+        middle = read_numbers("--around", around, f"{model.n} numbers,")
+        half = read_numbers("--within", within, f"one number, or {model.n},")
+        if len(middle) != model.n or len(half) not in (1, model.n):
+            raise InputError(f"--around needs {model.n} numbers, and --within one or {model.n}")
+        pairs = zip(model.joint_names, middle, [*half] * (model.n // len(half)), strict=True)
+        texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
+        box = _intervals(model, "--around", texts, degrees)
+    claim = hf.certificates.ceiling_claim(
+        model,
+        box | _intervals(model, "--limit", limit or [], degrees),
+        below,
+        failures=read_failures(model, failures),
+        task=task,
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command("structural-zero")
+def structural_zero(
+    arm: ArmArgument,
+    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Between a shoulder and a wrist.", show_default=False)],
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("structural-zero.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that a lock of a joint between a spherical shoulder and a spherical wrist costs everything, wherever the arm is.
+
+    Proved exactly, of an arm whose geometry is that of the file but for rounded digits, and by how much it differs is
+    printed. The exit code is 0 if it is proved, 3 if axes do not meet.
+
+    Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
+    """
+    model = read_arm(arm, base, tip, hold)
+    proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
+    if not proof.ok:
+        printed(proof, json_)
+        raise typer.Exit(NOT_MET)
     file = proof.write(out)
-    found = hf.check_certificate(file) if check else None
-    printed(found or proof, json_, [file])
+    printed(hf.check_certificate(file) if check else proof, json_, [file])
+
+
+def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> None:
+    """Search, write, check, print."""
+    with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
+        proof = hf.certify(claim, **how, progress=progress, stop=stop)
+    file = proof.write(out)
+    found = hf.check_certificate(file) if check and not stop() else None
+    printed(found or proof, as_json, [file])
+    if stop():
+        raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
+    if isinstance(proof, hf.certificates.Refutation | hf.certificates.Ceiling) and proof.refuted:
+        raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)
 
@@ -126,6 +343,39 @@ def show(file: FileArgument) -> None:
     volumes = document["volumes"]
     typer.echo(document["claim"])
     typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
+
+
+def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:
+    """--rotation and --rotation-size, as a claim takes them."""
+    from holdfast.arm.urdf import rpy_rotation
+
+    if rotation is None:
+        if size is not None:
+            raise InputError("--rotation-size is the box around --rotation; give that, too")
+        return {}
+    angles, edges = (
+        read_numbers(*option, "roll, pitch and yaw") for option in (("--rotation", rotation), ("--rotation-size", size or "0"))
+    )
+    if angles.size != 3 or edges.size not in (1, 3) or not (edges >= 0).all():
+        raise InputError("--rotation takes roll, pitch and yaw; --rotation-size one number or three, not negative")
+    turn = np.pi / 180 if degrees else 1.0
+    if not edges.any():
+        return {"rotation": rpy_rotation((turn * angles).tolist())}
+    return {"rpy": turn * np.column_stack([angles - edges / 2, angles + edges / 2])}
+
+
+def _ranges_of(file: Path) -> list[str]:
+    """A file of working ranges, as options give them."""
+    from holdfast.files.yaml import content
+
+    try:
+        found = content(file, "holdfast certify tolerant --help", "a joint with its range, such as joint1: [-0.5, 0.5]")
+    except InputError as error:
+        raise InputError(f"ranges file '{file}': {error}") from error
+    for joint, pair in found.items():
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise InputError(f"ranges file '{file}': {joint} has {str(pair)[:40]!r}; give [LOW, HIGH]")
+    return [f"{joint}={low}..{high}" for joint, (low, high) in found.items()]
 
 
 def _intervals(arm: hf.Arm, option: str, texts: list[str], degrees: bool) -> dict[str | int, tuple[float, float]]:

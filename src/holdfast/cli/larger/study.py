@@ -224,8 +224,8 @@ def _runner(scheduler: str | None) -> Iterator[Any]:
 
 
 @contextmanager
-def stopping() -> Iterator[Callable[[], bool]]:
-    """Ctrl-C and SIGTERM (as cluster managers send it) stop the study once; the second one stops the program."""
+def stopping(said: str = "stopping after the chunks in hand; again to stop at once") -> Iterator[Callable[[], bool]]:
+    """Ctrl-C and SIGTERM (as cluster managers send it) stop the study once, and that is said; the second stops the program."""
     asked = False
 
     def stop(number: int, _: object) -> None:
@@ -233,7 +233,8 @@ def stopping() -> Iterator[Callable[[], bool]]:
         if asked:
             raise KeyboardInterrupt
         asked = True
-        typer.echo("stopping after the chunks in hand; again to stop at once", err=True)
+        if said:
+            typer.echo(said, err=True)
 
     before = {s: signal.signal(s, stop) for s in (signal.SIGINT, signal.SIGTERM)}
     try:

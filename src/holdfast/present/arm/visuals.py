@@ -47,10 +47,11 @@ def visual_parts(arm: Arm, meshes: bool = True) -> tuple[list[Part], list[Missin
         pieces, missing = read_pieces(arm, "visual", open_files=meshes)
     except HoldfastError as error:  # another arm than the one in the file, or a reader that is not installed
         return [], [Missing(-1, str(error))]
-    return [_part(piece) for piece in pieces], missing
+    return [part_of(piece) for piece in pieces], missing
 
 
-def _part(piece: Piece) -> Part:
+def part_of(piece: Piece) -> Part:
+    """A shape of a file as triangles, in its own colour."""
     vertices, faces = _triangles(piece)
     color = LINK
     if piece.rgba is not None:

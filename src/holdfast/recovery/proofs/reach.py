@@ -14,12 +14,14 @@ from holdfast.enclosure import Configurations, Finding, all_configurations
 from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
+from holdfast.recovery.proofs.within_objects import WithinObjects
 from holdfast.recovery.rows import RowSolver
+from holdfast.recovery.space import Space
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_BOXES = 2_000_000  # about 2 s: a number and not a time, so that the same seed gives the same result
+_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
 _SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
 _TOLERANCE = 1e-6  # m and rad: what the search takes as met
 
@@ -44,14 +46,32 @@ def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str |
     return out_of_reach(arm, free, at, pose, rows.m == 6, normal)
 
 
-def listed(degraded: Degraded, task: Task, pose: Array, seconds: float) -> Configurations | None:
+def every_clear(
+    degraded: Degraded, task: Task, pose: Array, space: Space, clearance: Clearance | None
+) -> tuple[Configurations | None, str | None]:
+    """Every configuration of a pose (4, 4) that is not within an object, and that none is clear, if these can be told.
+
+    In half of the time that is left.
+    """
+    kept = space.clearance
+    blocked = None if kept is None or kept.obstacles is None else WithinObjects(kept, space.margin)
+    found = listed(degraded, task, pose, space.seconds_left / 2, blocked)
+    return found, proved_by(found, clearance, "" if blocked is None else blocked.objects)
+
+
+def listed(
+    degraded: Degraded, task: Task, pose: Array, seconds: float, blocked: WithinObjects | None = None
+) -> Configurations | None:
     """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.
+
+    Those in which the arm certainly is within an object are left out.
 
     Args:
         degraded: What is in force, every lock with its value.
         task: Whose rows count.
         pose: (4, 4) of the end effector, m.
         seconds: At most.
+        blocked: Which boxes are; None without a cell.
     """
     limits = degraded.lo, degraded.hi
     known = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)  # or it turns once
@@ -60,16 +80,35 @@ def listed(degraded: Degraded, task: Task, pose: Array, seconds: float) -> Confi
     allowed = {} if np.isinf(seconds) else {"time_limit": seconds}
     try:
         return all_configurations(
-            degraded.arm, pose, task, limits=limits, tolerance=_TOLERANCE, most_boxes=_BOXES, first=False, **allowed
+            degraded.arm,
+            pose,
+            task,
+            limits=limits,
+            tolerance=_TOLERANCE,
+            most_boxes=_BOXES,
+            first=False,
+            blocked=blocked,
+            **allowed,
         )
     except TaskError:
         return None
 
 
-def proved_by(found: Configurations | None, clearance: Clearance | None) -> str | None:
-    """A sentence that proves that no clear configuration exists: there is none, or each of them touches something."""
+def proved_by(found: Configurations | None, clearance: Clearance | None, objects: str = "") -> str | None:
+    """A sentence that proves that no clear configuration exists: there is none, or each of them touches something.
+
+    Args:
+        found: All there are.
+        clearance: By which they are judged.
+        objects: Names of those within which boxes were left out.
+    """
     if found is None or found.finding not in (Finding.NONE, Finding.ALL):
         return None
+    if not len(found.q) and found.blocked:
+        return (
+            f"every configuration within the limits that meets it is within an object ({objects}), by {found.boxes:,} boxes of "
+            "joints, up to floating point"
+        )
     if not len(found.q):
         return f"no configuration within the limits meets it, by {found.boxes:,} boxes of joints, up to floating point"
     if found.lower[-1] < found.upper[-1] and idle(found.arm, Parts.of(found.arm, found.task)):

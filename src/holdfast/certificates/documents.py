@@ -1,0 +1,178 @@
+"""Certificates as their files hold them; :mod:`holdfast.certificates.verifier` says what each key is."""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast import __version__
+from holdfast.arm.model import Arm
+from holdfast.certificates import verifier
+from holdfast.certificates.claims import CeilingClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
+from holdfast.certificates.joint_boxes.exclusion import Exclusion
+from holdfast.certificates.joint_boxes.halving import Halving
+from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
+
+Document = dict[str, Any]
+
+
+def reach(claim: ReachClaim, tree: Tree, *, seconds: float, nodes: int) -> Document:
+    """The certificate of a search."""
+    tokens, centres = tree.in_order()
+    rows = np.array(centres, dtype="<i4").reshape(-1, claim.arm.n)
+    parts = {"proved": tree.volume(PROVED), "refuted": Fraction(0), "undecided": tree.volume(UNDECIDED)}
+    return _signed(
+        _common("reach", claim, seconds, nodes)
+        | {
+            "locked": claim.locked,
+            "angle": None if claim.angle is None else _hexes(claim.angle),
+            "limits": _hexes(claim.limits),
+            "unit": UNIT.hex(),
+            "tree": _packed(tokens),
+            "centres": _packed(rows.tobytes()),
+            "refutations": [],
+            "volumes": {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()},
+        }
+    )
+
+
+def bundle(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:
+    """The certificate that names those of its parts, as files; of the worst part it has the volumes."""
+    listed = [
+        {"file": name, "digest": part["digest"], "locked": part["locked"]} for name, part in zip(names, parts, strict=True)
+    ]
+    spent = {key: sum(part[key] for part in parts) for key in ("seconds", "nodes")}
+    return _signed(
+        _common("bundle", claim, **spent)
+        | {
+            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
+            "working_ranges": _hexes(claim.working_ranges),
+            "locks": list(claim.locks),
+            "parts": listed,
+            "volumes": parts[worst]["volumes"],
+        }
+    )
+
+
+def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> Document:
+    """The certificate of an exclusion, or of a witness that says the opposite."""
+    lemmas = [
+        {
+            "link": lemma.link,
+            "point": _hexes(lemma.point),
+            "least": _hexes(lemma.least),
+            "most": _hexes(lemma.most),
+            "tree": _packed(lemma.tree),
+        }
+        for lemma in found.lemmas
+    ]
+    return _signed(
+        _common("refutation", claim, seconds, found.nodes)
+        | {
+            "locked": claim.locked,
+            "angle": None if claim.angle is None else _hexes(claim.angle),
+            "limits": _hexes(claim.limits),
+            "tree": _packed(found.tree),
+            "lemmas": lemmas,
+            "witness": None if found.witness is None else _hexes(found.witness),
+            "volumes": _volumes(found.undecided),
+        }
+    )
+
+
+def ceiling(claim: CeilingClaim, tree: Halving, best: NDArray[np.float64], *, seconds: float) -> Document:
+    """The certificate of a ceiling, with the best configuration that was found."""
+    common = _common("ceiling", claim, seconds, tree.tested)
+    return _signed(
+        common
+        | {
+            "joint_box": _hexes(claim.joint_box),
+            "threshold": _hexes(claim.threshold),
+            "locks": list(claim.locks),
+            "tree": _packed(tree.in_order()),
+            "best": _hexes(best),
+            "volumes": _volumes(tree.undecided),
+        }
+    )
+
+
+def structural_zero(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
+    """The certificate of a structural zero: frames and points on axes, as exact fractions."""
+    kept = {"locked": claim.locked, "snapped": snapped, "points": points, "volumes": _volumes(Fraction(0))}
+    return _signed(_common("structural-zero", claim, 0.0, len(points)) | kept)
+
+
+def _volumes(undecided: Fraction) -> Document:
+    parts = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
+    return {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()}
+
+
+def undecided(document: Document) -> list[verifier.Cell]:
+    """The cells of a reach certificate that are not proved."""
+    tokens, box = verifier.unpacked(document["tree"], 2 * verifier.MOST_LEAVES, "tree"), document["target"]["box"]
+    return [cell for token, cell in verifier.cells(tokens, len(box) + (document["angle"] is not None)) if token != PROVED]
+
+
+def _common(
+    kind: str,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim | StructuralZeroClaim,
+    seconds: float,
+    nodes: int,
+) -> Document:
+    made = {
+        "format": "holdfast-certificate",
+        "version": 1,
+        "kind": kind,
+        "arm": _stored(claim.arm),
+        "source": {"name": claim.arm.name},
+        "task": claim.task,
+        "made_by": f"holdfast {__version__}",
+        "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
+        "seconds": seconds,
+        "nodes": nodes,
+    }
+    if isinstance(claim, CeilingClaim | StructuralZeroClaim):
+        return made
+    return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
+
+
+def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
+    rotation = None if isinstance(claim, OutOfReachClaim) else claim.rotation
+    return None if rotation is None else [x for row in _hexes(rotation) for x in row]
+
+
+def _signed(document: Document) -> Document:
+    """With the sentence of the claim and the digests."""
+    document["arm_digest"] = verifier.digest(document["arm"])
+    document["claim"] = verifier.sentence(document)
+    return document | {"digest": verifier.digest(document)}
+
+
+def _stored(arm: Arm) -> Document:
+    chain, limits = Chain.of(arm), np.column_stack([arm.lower, arm.upper])
+    frames = [
+        {"rotation": _hexes(turn.ravel()), "origin": _hexes(place)}
+        for turn, place in zip(chain.rotations, chain.origins, strict=True)
+    ]
+    joints = zip(arm.joints, frames, limits, strict=False)
+    stored = [
+        {"name": joint.name, "type": "prismatic" if joint.prismatic else "revolute", **frame, "limits": _hexes(pair)}
+        for joint, frame, pair in joints
+    ]
+    return {"joints": stored, "tool": frames[-1]}
+
+
+def _hexes(values: NDArray[np.float64] | float) -> Any:
+    return [_hexes(x) for x in np.asarray(values)] if np.ndim(values) else float(values).hex()
+
+
+def _packed(data: bytes) -> str:
+    return base64.b64encode(zlib.compress(data, 9)).decode()

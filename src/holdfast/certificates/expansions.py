@@ -1,0 +1,254 @@
+"""Kernels of the Taylor form: error, derivatives and bounds around a configuration, whichever joint is locked."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.caching import cached_property
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.loop import Loop
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
+from holdfast.linalg import Cholesky, damped_least_norm
+
+Array = NDArray[np.float64]
+
+_TOO_FAR = 0.5  # m or rad of error: no section box will do
+_STRIDE = 0.5  # rad in one step of Newton's method
+_HALF_TURN = 2.9  # the error of a rotation is 0 for half a turn as well: its trace must be above this, and its angles
+_MOST = 1.45  # rad, all of them together, below this
+
+
+class Expansion:
+    """What is computed of an arm's tool: its point, and with six rows its rotation.
+
+    Free joints are given as ones, (n,), and the locked joint as a one among zeros, (n,), all 0 for a healthy arm. A target is
+    the coordinates of its point; with six rows the three angles by which targets turn, or nine numbers of a rotation. A form
+    is what of the Taylor form counts: the error (m,); ``|B|`` (n, m), by how much joints follow the section, and the point of
+    the target with it; ``|L|`` (n, t + 1), how they follow the t angles and the locked joint; second derivatives by pairs of
+    these m + t + 1 coordinates (m, pairs); and how far slides are out, (n,) m.
+
+    Args:
+        arm: The arm.
+        m: Rows: 2, 3 or 6.
+        turning: t: 3 where targets turn, else 0.
+        lengths: (n,) m, of what each joint and those before it turn, see :class:`holdfast.certificates.taylor.Chain`.
+        slides: (n,) which joints slide.
+    """
+
+    def __init__(self, arm: Arm, m: int, turning: int, lengths: Array, slides: NDArray[np.bool_]) -> None:
+        self.arm, self.m, self.turning, self.lengths, self.slides = arm, m, turning, lengths, slides
+        self.linear = min(m, 3)  # rows of the point
+        self.axes = self.linear + turning  # of a target
+        self.coordinates = m + turning + 1
+        self.pairs = [(a, b) for a in range(self.coordinates) for b in range(a, self.coordinates)]
+
+    @property
+    def given(self) -> int:
+        """Numbers in a target as the kernels take it."""
+        return self.linear + (0 if self.m < 6 else self.turning or 9)
+
+    # ---- error and derivatives ---------------------------------------------------------------------------------
+
+    def _wanted(self, target: SX) -> tuple[SX, list[SX]]:
+        """Rotation of a target, and the axes about which its angles turn it."""
+        if not self.turning:
+            return ca.reshape(target[3:], 3, 3).T, []
+        roll, pitch, yaw = (_turn(axis, target[3 + axis]) for axis in range(3))
+        return yaw @ pitch @ roll, [(yaw @ pitch)[:, 0], yaw[:, 1], ca.SX([0, 0, 1])]
+
+    def _jacobian(self, q: SX) -> tuple[kinematics.Chain, SX]:
+        """(6, n) of the tool's point and rotation."""
+        chain = kinematics.chain(self.arm, q)
+        return chain, kinematics.jacobian_of(self.arm, chain, chain.position)
+
+    def _off(self, chain: kinematics.Chain, target: SX) -> tuple[SX, SX, SX]:
+        """Of the point (2 or 3,) m; of the rotation the matrix that is left, and 2 sin(angle / 2) about its axis."""
+        point = chain.position[: self.linear] - target[: self.linear]
+        if self.m < 6:
+            return point, ca.SX.eye(3), ca.SX(0, 1)
+        off = chain.rotation @ self._wanted(target)[0].T
+        return point, off, 2 * _vee(off) / ca.sqrt(ca.fmax(1 + ca.trace(off), 1e-12))
+
+    def _expanded(self, q: SX, target: SX) -> tuple[SX, SX, list[SX]]:
+        """Error (m,), slopes (m, n + t) and Hessians of its rows, by joints and angles of the target."""
+        n, t, linear = self.arm.n, self.turning, self.linear
+        chain, jacobian = self._jacobian(q)
+        columns, axes = jacobian[:3, :], jacobian[3:, :]
+        error, off, _ = self._off(chain, target)
+        slopes = ca.horzcat(columns[:linear, :], ca.SX(linear, t))
+        hessians = [ca.SX(n + t, n + t) for _ in range(self.m)]
+        for j in range(n):
+            for k in range(j, n):  # the second derivative by joint j and a later k is z_j x J_k
+                second = ca.cross(axes[:, j], columns[:, k])
+                for row in range(linear):
+                    hessians[row][j, k] = hessians[row][k, j] = second[row]
+        if self.m == 6:
+            # Turning the target turns what is left from the right; all axes of R(q) R', from left to right.
+            turns = ca.horzcat(axes, *[-(off @ axis) for axis in self._wanted(target)[1]])
+            error = ca.vertcat(error, _vee(off) + 10 * (ca.trace(off) < _HALF_TURN))
+            slopes = ca.vertcat(slopes, _axial(off) @ turns)
+            for k in range(n + t):
+                by_k = _axial(ca.skew(turns[:, k]) @ off)
+                for j in range(k + 1):
+                    second = by_k @ turns[:, j]
+                    for row in range(3):
+                        hessians[3 + row][j, k] = hessians[3 + row][k, j] = second[row]
+        return error, slopes, hessians
+
+    @property
+    def _inputs(self) -> tuple[SX, SX, SX]:
+        """Joints, target, which joints are free."""
+        return kinematics.joint_symbols(self.arm), ca.SX.sym("x", self.given), ca.SX.sym("free", self.arm.n)
+
+    def _inverse(self, jacobian: SX, free: SX) -> SX:
+        """(n, m) pseudo-inverse on the free joints."""
+        some = jacobian @ ca.diag(free)
+        gram = some @ some.T
+        factor = Cholesky([[gram[i, k] for k in range(self.m)] for i in range(self.m)])
+        return some.T @ ca.horzcat(*[ca.vertcat(*factor.solve(ca.vertsplit(ca.SX.eye(self.m)[:, k]))) for k in range(self.m)])
+
+    @cached_property
+    @recalled
+    def form(self) -> Kernel:
+        """Joints, target, free and locked joints, how far a locked slide is out at most -> the form."""
+        (q, target, free), n, t = self._inputs, self.arm.n, self.turning
+        locked, held = ca.SX.sym("locked", n), ca.SX.sym("held", n)
+        error, slopes, hessians = self._expanded(q, target)
+        inverse = self._inverse(slopes[:, :n], free)
+        follow = ca.horzcat(-inverse @ slopes[:, n:], locked - inverse @ (slopes[:, :n] @ locked))
+        d = ca.vertcat(ca.horzcat(inverse, follow), ca.horzcat(ca.SX(t, self.m), ca.SX.eye(t), ca.SX(t, 1)))
+        forms = [d.T @ hessian @ d for hessian in hessians]
+        by_pair = ca.vertcat(*[ca.horzcat(*[form[a, b] for a, b in self.pairs]) for form in forms])
+        out = [error, ca.fabs(inverse), ca.fabs(follow), by_pair, ca.fmax(ca.fabs(q), held) * self.slides.astype(float)]
+        return Kernel("Taylor form of a reach", [q, target, free, locked, held], [ca.densify(x) for x in out])
+
+    # ---- bounds ------------------------------------------------------------------------------------------------
+
+    @property
+    def _form(self) -> SX:
+        return ca.SX.sym("form", self.m * (1 + len(self.pairs)) + self.arm.n * (self.coordinates + 1))
+
+    def _sides(self, form: SX, cell: SX, section: SX) -> tuple[SX, SX, SX, SX]:
+        m, n, t, linear = self.m, self.arm.n, self.turning, self.linear
+        sizes = [0, m, m * n, (t + 1) * n, m * len(self.pairs), n]
+        error, inverse, follow, second, out = ca.vertsplit(form, np.cumsum(sizes).tolist())
+        targets = ca.vertcat(cell[:linear], ca.SX(m - linear, 1))  # what follows the target as it does the section
+        wide = ca.vertcat(targets + section, cell[linear:])
+        far = ca.reshape(inverse, m, n).T @ wide[:m] + ca.reshape(follow, t + 1, n).T @ wide[m:]
+        second = ca.reshape(second, len(self.pairs), m).T
+        rest, c = ca.SX(0), ca.SX(0)
+        for k in range(n):
+            length = float(self.lengths[k])
+            if self.slides[k]:
+                rest += (c * c * c * (length + out[k] + far[k]) + 3 * c * c * far[k]) / 6
+            else:
+                c += far[k]
+                rest += length / 6 * c * c * c
+        for k in range(t):
+            c += cell[linear + k]
+        above, below = [], []
+        for row in range(m):
+            both, up, down = rest if row < linear else c * c * c / 6, ca.SX(0), ca.SX(0)
+            for column, (a, b) in enumerate(self.pairs):
+                value = second[row, column]
+                if a < b:
+                    both += ca.fabs(value) * wide[a] * wide[b]
+                    continue
+                square = wide[a] * wide[a]
+                if a < linear:
+                    both += ca.fabs(value) * cell[a] * section[a]
+                    square = cell[a] * cell[a] + section[a] * section[a]
+                up, down = up + ca.fmax(value, 0) * square / 2, down + ca.fmax(-value, 0) * square / 2
+            above.append(error[row] + both + up)
+            below.append(-error[row] + both + down)
+        return ca.vertcat(*above), ca.vertcat(*below), far, c
+
+    @cached_property
+    @recalled
+    def sides(self) -> Kernel:
+        """Form, half widths of cell (axes + 1,) and section (m,) -> the error less s above and below 0, how far joints go."""
+        form, cell, section = self._form, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
+        return Kernel("bounds of a Taylor form", [form, cell, section], list(self._sides(form, cell, section)[:3]))
+
+    @cached_property
+    @recalled
+    def rounds(self) -> Loop:
+        """The section box, and 1 where it is found or -1 where none is: each a little wider than what the one before needs."""
+        form, cell, section, verdict = self._form, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m), ca.SX.sym("v")
+        q, free, low, high = (ca.SX.sym(name, self.arm.n) for name in ("q", "free", "low", "high"))
+        above, below, far, turned = self._sides(form, cell, section)
+        e, room = ca.fmax(above, below), 1.001 * far + 1e-6
+        beyond = ca.fmax(low - (q - room), q + room - high) * free
+        inside = ca.mmax(beyond) <= 0
+        if self.m == 6:
+            inside = ca.logic_and(inside, turned < _MOST)
+        closed = ca.mmax(1.002 * e + 2e-7 - section) <= 0
+        lost = ca.logic_or(ca.logic_not(inside), ca.mmax(e) >= _TOO_FAR)
+        now = ca.if_else(closed, ca.if_else(inside, 1.0, -1.0), ca.if_else(lost, -1.0, 0.0))
+        after = ca.if_else(closed, section, ca.fmin(1.05 * e + 1e-9, 1.0))
+        return Loop(
+            "section box of a cell",
+            ca.vertcat(section, verdict),
+            [form, cell, q, free, low, high],
+            next_state=ca.vertcat(after, now),
+            residual=1 - ca.fabs(now),
+            ahead=True,
+        )
+
+    # ---- configurations ----------------------------------------------------------------------------------------
+
+    @cached_property
+    @recalled
+    def newton(self) -> Loop:
+        """Joints to a target with an error of one's choice (m,), on the free joints, within limits."""
+        q, target, free = self._inputs
+        error, low, high = ca.SX.sym("e", self.m), ca.SX.sym("low", self.arm.n), ca.SX.sym("high", self.arm.n)
+        chain, jacobian = self._jacobian(q)
+        point, _, left = self._off(chain, target)  # not the axial part: it is 0 for half a turn as well
+        missed = error - ca.vertcat(point, left)
+        step = damped_least_norm(jacobian[: self.m, :] @ ca.diag(free), missed, 1e-8)
+        step *= ca.fmin(1, _STRIDE / ca.fmax(ca.mmax(ca.fabs(step)), 1e-12))
+        after = ca.fmin(ca.fmax(q + step, low), high) * free + q * (1 - free)
+        return Loop(
+            "configuration of a target", q, [target, error, free, low, high], next_state=after, residual=ca.sumsqr(missed)
+        )
+
+    @cached_property
+    @recalled
+    def missed(self) -> Kernel:
+        """Joints and target -> how far the tool is from it, m, and by how much it is turned away, rad."""
+        q, target, _ = self._inputs
+        point, _, left = self._off(self._jacobian(q)[0], target)
+        far = [ca.sqrt(ca.sumsqr(x)) if x.numel() else ca.SX(0) for x in (point, left)]
+        return Kernel("distance from a target", [q, target], far)
+
+    @cached_property
+    @recalled
+    def along(self) -> Kernel:
+        """Joints, a move of them and which are free -> what of it keeps the tool where it is, to first order."""
+        (q, _, free), move = self._inputs, ca.SX.sym("d", self.arm.n)
+        jacobian, some = self._jacobian(q)[1][: self.m, :], move * free
+        kept = some - self._inverse(jacobian, free) @ (jacobian @ some)
+        return Kernel("self-motion of a reach", [q, move, free], [kept])
+
+
+def _vee(a: SX) -> SX:
+    """(3,) axial vector: of a rotation the sine of its angle, about its axis."""
+    return ca.vertcat(a[2, 1] - a[1, 2], a[0, 2] - a[2, 0], a[1, 0] - a[0, 1]) / 2
+
+
+def _turn(axis: int, angle: SX) -> SX:
+    """The rotation about a coordinate axis."""
+    i, j, made = (axis + 1) % 3, (axis + 2) % 3, ca.SX.eye(3)
+    made[i, i], made[j, j], made[i, j], made[j, i] = ca.cos(angle), ca.cos(angle), -ca.sin(angle), ca.sin(angle)
+    return made
+
+
+def _axial(a: SX) -> SX:
+    """The matrix that takes z to the axial vector of [z] a."""
+    return (ca.trace(a) * ca.SX.eye(3) - a) / 2

@@ -1,0 +1,114 @@
+"""What was found of a claim that nothing of a box is reached."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.certificates import documents, verifier
+from holdfast.certificates.claims import OutOfReachClaim
+from holdfast.certificates.joint_boxes.exclusion import exclude
+from holdfast.certificates.proof import early, written
+from holdfast.notice import Progress
+from holdfast.result import Result
+
+_FINE = 10_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Halved(Result):
+    """What the halving of a box found. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        proved, undecided: Exact parts of the box.
+        leaves: Boxes that are proved, those of lemmas among them.
+        nodes: Boxes that were looked at.
+        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
+        seconds: Measured.
+        document: The certificate, as its file holds it.
+    """
+
+    proved: Fraction
+    undecided: Fraction
+    leaves: int
+    nodes: int
+    finished: bool
+    seconds: float
+    document: dict[str, Any]
+
+    @property
+    def ok(self) -> bool:
+        """True if nothing is undecided."""
+        return self.undecided == 0
+
+    def write(self, file: str | Path) -> Path:
+        """Write the certificate.
+
+        Raises:
+            StoreError: The file cannot be written.
+        """
+        return written(self.document, Path(file))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Refutation(Halved):
+    """What the prover found for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        claim: What was asked.
+        proved: Exact share of pairs of target and configuration that are told apart.
+        witness: (n,) rad, a configuration whose tool is in the box: the claim is false, and the document says so. None: none
+            was found.
+    """
+
+    claim: OutOfReachClaim
+    witness: NDArray[np.float64] | None
+
+    @property
+    def refuted(self) -> bool:
+        """True if a witness was found."""
+        return self.witness is not None
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        if self.witness is not None:
+            at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.witness))
+            return [self.document["claim"], f"Refuted by a witness: at ({at}) deg the tool is in the box."]
+        return [
+            self.document["claim"],
+            f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)} of all pairs of target and "
+            f"configuration, undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
+            f"{self.leaves:,} boxes are told apart, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",
+        ]
+
+
+def refuted(
+    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], progress: Progress | None
+) -> Refutation:
+    """What the search finds, as :func:`holdfast.certify` is asked."""
+    began = perf_counter()
+
+    def tell(closed: float) -> None:
+        if progress is not None:
+            progress(int(_FINE * closed), _FINE)
+
+    found = exclude(claim, halvings, seed, until, stop, tell)
+    seconds = perf_counter() - began
+    return Refutation(
+        claim=claim,
+        proved=1 - found.undecided,
+        undecided=found.undecided,
+        witness=found.witness,
+        leaves=found.leaves,
+        nodes=found.nodes,
+        finished=found.finished,
+        seconds=seconds,
+        document=documents.refutation(claim, found, seconds=seconds),
+    )

@@ -1,0 +1,156 @@
+"""How near and how far a point of a link may be from a target over boxes of joints and targets: in doubles, for batches.
+
+Along any direction e the distance is at least e.(y - x), whose first and second derivatives at the centre of a box are exact
+and whose third is bounded by the lengths that joints carry. The greatest distance is bounded through half its square.
+Everything here may be wrong: the verifier decides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.certificates.taylor import Chain
+
+Array = NDArray[np.float64]
+_ON_AXIS = 1e-9  # m, of a point from an axis that it lies on
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """Some successive joints of a chain, from a link to a point of a later one.
+
+    Attributes:
+        first, last: The joints are first to last - 1; coordinates are those of link ``first``, which joint first - 1 moves.
+        rotations: (k, 3, 3) of each joint's frame in the one before.
+        origins: (k, 3) likewise, m.
+        end: (3,) m, the point in the last of these frames.
+        lengths: (k,) m, of what joint k and those before it turn and the next one does not.
+    """
+
+    first: int
+    last: int
+    rotations: Array
+    origins: Array
+    end: Array
+    lengths: Array
+
+    @classmethod
+    def of(cls, chain: Chain, first: int, last: int, end: Array) -> Segment:
+        """The joints first to last - 1 of a chain."""
+        turns, links = chain.rotations[first:last], [*chain.origins[first + 1 : last], end]
+        lengths = []
+        for k, link in enumerate(links[: last - first]):
+            across = link * [1, 1, 0]
+            if k + 1 < len(links):
+                across = across + turns[k + 1] @ [0, 0, links[k + 1][2]]
+            lengths.append(float(np.linalg.norm(across)))
+        return cls(first, last, turns, chain.origins[first:last], np.asarray(end), np.array(lengths))
+
+    def frames(self, q: Array) -> tuple[Array, Array, Array]:
+        """The point (N, 3), axes (N, k, 3) and derivatives of the point (N, k, 3) at q (N, k)."""
+        count, joints = q.shape
+        turn, tip = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
+        axes, places = np.zeros((count, joints, 3)), np.zeros((count, joints, 3))
+        cosines, sines = np.cos(q), np.sin(q)
+        for k in range(joints):
+            tip = tip + turn @ self.origins[k]
+            turn = turn @ self.rotations[k]
+            axes[:, k], places[:, k] = turn[:, :, 2], tip
+            x, y = turn[:, :, 0], turn[:, :, 1]
+            c, s = cosines[:, k, None], sines[:, k, None]
+            turn = np.stack([c * x + s * y, c * y - s * x, turn[:, :, 2]], axis=2)
+        tip = tip + turn @ self.end
+        return tip, axes, np.cross(axes, tip[:, None] - places)
+
+    def on_axes(self, point: Array) -> int:
+        """How many of the first joints have their axes through a point (3,): they do not change its distance."""
+        turn, place = np.eye(3), np.zeros(3)
+        for k in range(len(self.lengths)):
+            place = place + turn @ self.origins[k]
+            turn = turn @ self.rotations[k]
+            if np.linalg.norm(np.cross(turn[:, 2], point - place)) > _ON_AXIS:
+                return k
+        return len(self.lengths)
+
+    def _third(self, half: Array) -> tuple[Array, Array]:
+        """Of each joint how far the ones up to it turn (N, k), and the third-order bound (N,)."""
+        turned = np.cumsum(half, axis=1)
+        return turned, (turned**3 @ self.lengths) / 6
+
+    def nearest(self, q: Array, half: Array, x: Array, wide: Array) -> tuple[Array, Array, Array]:
+        """A distance that the point keeps from targets x +- wide (N, 3) over q +- half (N, k).
+
+        Returns:
+            The distance (N,), that of the middles less than it may be, and what of it each joint and target coordinate costs
+            (N, k + 3).
+        """
+        tip, axes, columns = self.frames(q)
+        v = tip - x
+        d = np.maximum(np.linalg.norm(v, axis=1), 1e-300)
+        turned, third = self._third(half)
+        swept = columns * half[:, :, None]
+        spread = np.einsum("nka,nkb->nab", swept, swept)
+        spread[:, range(3), range(3)] += wide**2 + 1e-6 * d[:, None] ** 2
+        fisher = np.linalg.solve(spread, v[:, :, None])[:, :, 0]
+        best: tuple[Array, Array, Array] | None = None
+        for e in (v / d[:, None], fisher / np.maximum(np.linalg.norm(fisher, axis=1), 1e-300)[:, None]):
+            slope = np.abs(np.einsum("na,nka->nk", e, columns))
+            second = np.einsum("nja,nka->njk", np.cross(e[:, None], axes), columns)
+            cost, mixed = _costs(slope, second, half)
+            aside = np.abs(e) * wide
+            gap = np.einsum("na,na->n", e, v)
+            bound = gap - cost.sum(axis=1) - mixed.sum(axis=1) / 2 - third - aside.sum(axis=1)
+            each = np.concatenate([cost + mixed + 3 * _later(self.lengths * turned**2) * half / 6, aside], axis=1)
+            if best is None:
+                best = bound, gap, each
+            else:
+                better = bound > best[0]
+                best = (
+                    np.where(better, bound, best[0]),
+                    np.where(better, gap, best[1]),
+                    np.where(better[:, None], each, best[2]),
+                )
+        assert best is not None
+        return best
+
+    def farthest(self, q: Array, half: Array, x: Array, wide: Array) -> tuple[Array, Array, Array]:
+        """A distance that the point keeps within, as :meth:`nearest`: the bound, that of the middles, what each costs."""
+        tip, axes, columns = self.frames(q)
+        count, joints = q.shape
+        v = tip - x
+        d = np.linalg.norm(v, axis=1)
+        turned, v3 = self._third(half)
+        v1 = turned @ self.lengths + np.linalg.norm(wide, axis=1)
+        third = (3 * v1 * (turned**2 @ self.lengths) + (d + v1) * 6 * v3) / 6
+        width = np.concatenate([half, wide], axis=1)
+        whole = np.concatenate([columns, np.broadcast_to(-np.eye(3), (count, 3, 3))], axis=1)
+        second = np.einsum("nja,nka->njk", whole, whole)
+        second[:, :joints, :joints] += np.einsum("nja,nka->njk", np.cross(v[:, None], axes), columns)
+        cost, mixed = _costs(np.abs(np.einsum("na,nka->nk", v, whole)), -second, width)
+        bound = d**2 / 2 + cost.sum(axis=1) + mixed.sum(axis=1) / 2 + third
+        each = cost + mixed
+        each[:, :joints] += (d + v1)[:, None] * _later(self.lengths * turned**2) * half / 2
+        return np.sqrt(2 * bound), d, each
+
+
+def _costs(slope: Array, second: Array, half: Array) -> tuple[Array, Array]:
+    """Of each variable what slope and own curvature cost (N, k), and its part in all pairs (N, k): half of them is the sum.
+
+    Args:
+        slope: (N, k), not negative.
+        second: (N, k, k) second derivatives, of which those for j <= k count.
+        half: (N, k).
+    """
+    own = np.diagonal(second, axis1=1, axis2=2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bent = np.where(slope < own * half, slope**2 / (2 * own), slope * half - own * half**2 / 2)
+    upper = np.triu(np.abs(second), 1) * half[:, :, None] * half[:, None]
+    return bent, upper.sum(axis=1) + upper.sum(axis=2)
+
+
+def _later(x: Array) -> Array:
+    """Of each column the sum of it and those behind."""
+    return np.asarray(np.cumsum(x[:, ::-1], axis=1)[:, ::-1])

@@ -1,0 +1,114 @@
+"""Configurations from which a search begins, all over its root box."""
+
+from __future__ import annotations
+
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.certificates.taylor import Form, Reach
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+_TARGETS, _MOST, _STARTS = 250, 1000, 12  # targets at first and at most, and random starts of each
+_EACH = 32  # cells for each target: where there are more, there are more targets
+_STRIDE = 0.5  # along self-motions, rad
+_CLIMB, _TYPICAL = 10, 16  # such steps, to prove more of cells that are so many times smaller than the root
+_ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
+_MET = 1e-9  # m and rad
+
+
+def stepped(reach: Reach, q: Array, rng: np.random.Generator) -> Array:
+    """A random step along the self-motion from each q (N, n)."""
+    move = np.nan_to_num(reach.along(q, rng.normal(size=q.shape)))
+    size = rng.uniform(0, _STRIDE, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
+    return np.asarray(q + move * size[:, None])
+
+
+class Pool:
+    """Configurations of random targets and locked angles of a root box, moved to where they prove much.
+
+    Args:
+        reach: What must be reached.
+        root: (A, 2) targets along each axis, then the locked angle.
+        rng: Of all draws.
+        until: When to stop (``monotonic``), with what there is.
+
+    Attributes:
+        q: (N, n) rad.
+        cells: That the whole would take, estimated; infinite where nobody knows.
+    """
+
+    def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
+        self._reach, self._root, self._rng = reach, root, rng
+        self._width = root[:, 1] - root[:, 0]
+        self._unit = np.where(self._width > 0, self._width, 1.0)
+        self.q, self._at, self._count = np.empty((0, reach.n)), np.empty((0, len(root))), 0
+        self._grow(until)
+        self.cells, targets = self._estimate(), _TARGETS
+        while targets < min(_MOST, self.cells / _EACH) and monotonic() < until:
+            self._grow(until)
+            targets += _TARGETS
+        self._added: list[tuple[Array, Array]] = [(self._at / self._unit, self.q)]
+
+    def _grow(self, until: float) -> None:
+        """By configurations of some targets more, where one is found."""
+        reach = self._reach
+        drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
+        at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < until else 0]
+        low, high = reach.spans.T
+        q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
+        q = reach.solved(q, at[:, : reach.axes], 40)
+        met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
+        self.q = np.concatenate([self.q, self._climbed(q[met], at[met, : reach.axes], until)])
+        self._at = np.concatenate([self._at, at[met]])
+
+    def _climbed(self, q: Array, targets: Array, until: float) -> Array:
+        """Moved along self-motions to where configurations prove more."""
+        q, half, best = q.copy(), np.tile(self._width / _TYPICAL, (len(q), 1)), np.full(len(q), -1.0)
+        for k in range(1 + _CLIMB * self._reach.redundant):
+            if monotonic() > until:
+                break
+            other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
+            size = Form.at(self._reach, other, targets).scale(half)
+            better = size > best
+            q[better], best[better] = other[better], size[better]
+        return q
+
+    def add(self, centre: Array, q: Array) -> None:
+        """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""
+        self._added.append((centre / self._unit, q))
+
+    def near(self, centre: Array, count: int) -> Array:
+        """(N, count, n) the nearest configurations by target and locked angle of centres (N, A), fewer if there are fewer."""
+        if 2 * self._count < sum(len(q) for _, q in self._added):  # else the tree is made anew too often
+            from scipy.spatial import KDTree
+
+            at, self._all = (np.concatenate(x) for x in zip(*self._added, strict=True))
+            self._added, self._count, self._near = [(at, self._all)], len(at), KDTree(at)
+        count = min(count, self._count)
+        if not count:
+            return np.empty((len(centre), 0, self._reach.n))
+        nearest = np.asarray(self._near.query(centre / self._unit, k=np.arange(1, count + 1), p=np.inf)[1])
+        return np.asarray(self._all[nearest])
+
+    def _estimate(self) -> float:
+        """The median over some of these of 2 to the halvings until one proves its cell."""
+        if not len(self.q):
+            return float("inf")
+        some = self._rng.permutation(len(self.q))[:_ASKED]
+        form, half = (
+            Form.at(self._reach, self.q[some], self._at[some, : self._reach.axes]),
+            np.tile(self._width / 2, (len(some), 1)),
+        )
+        halvings, may = np.zeros(len(some)), np.broadcast_to(self._width > 0, half.shape)
+        for _ in range(_ENOUGH):
+            left = np.flatnonzero(~form.proved(half)[0])
+            if not left.size:
+                break
+            halvings[left] += 1
+            half[left, form.take(left).worst_axis(half[left], may[left])] /= 2
+        some_do = halvings[halvings < _ENOUGH]  # a configuration at a limit proves nothing, however small the cell
+        return float(2 ** np.median(some_do)) if some_do.size else float("inf")

@@ -1,0 +1,99 @@
+"""Boxes halved: the tree of a search, and cells of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
+
+
+@dataclass
+class Cells:
+    """Cells of the root: cell k of 2^depth along each axis, and what they inherit.
+
+    Attributes:
+        place, depth: (N, A).
+        name: (N,) number of each in the tree.
+        q: (N, n) a configuration to begin from, rad.
+        barren: (N,) how many cells in a row around this one were not proved to a measurable part.
+    """
+
+    place: Index
+    depth: Index
+    name: Index
+    q: Array
+    barren: Index
+
+    def take(self, which: NDArray[np.intp]) -> Cells:
+        """Some of them."""
+        return Cells(self.place[which], self.depth[which], self.name[which], self.q[which], self.barren[which])
+
+    @property
+    def share(self) -> float:
+        """Of the root that they are together."""
+        return float((0.5 ** self.depth.sum(axis=1)).sum())
+
+
+class Tree:
+    """A bisection tree that grows.
+
+    Attributes:
+        token: Of each node: proved, undecided, or 16 and the axis that is halved.
+        below: The lower child of each node that is split; the upper one is the next.
+        centre: (n,) of each proved node, in units of 2^-24 rad.
+        depth: Halvings above each node.
+    """
+
+    def __init__(self) -> None:
+        self.token: list[int] = [UNDECIDED]
+        self.below: list[int] = [0]
+        self.depth: list[int] = [0]
+        self.centre: dict[int, Index] = {}
+
+    def prove(self, name: int, centre: Index) -> None:
+        """A configuration does for all of this node."""
+        self.token[name], self.centre[name] = PROVED, centre
+
+    def split(self, name: int, axis: int) -> int:
+        """The lower child."""
+        self.token[name], self.below[name] = SPLIT + axis, len(self.token)
+        self.token += [UNDECIDED] * 2
+        self.below += [0] * 2
+        self.depth += [self.depth[name] + 1] * 2
+        return self.below[name]
+
+    def halved(self, cells: Cells, axis: Index) -> Cells:
+        """Both halves of each cell along its axis, one after the other."""
+        below = np.array([self.split(*pair) for pair in zip(cells.name.tolist(), axis.tolist(), strict=True)], dtype=np.int64)
+        place, depth = np.repeat(cells.place, 2, axis=0), np.repeat(cells.depth, 2, axis=0)
+        rows, twice = np.arange(2 * len(axis)), np.repeat(axis, 2)
+        place[rows, twice] = 2 * place[rows, twice] + rows % 2
+        depth[rows, twice] += 1
+        return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2))
+
+    def volume(self, token: int) -> Fraction:
+        """Exact share of the root of the leaves with this token."""
+        counts: dict[int, int] = {}
+        for found, depth in zip(self.token, self.depth, strict=True):
+            if found == token:
+                counts[depth] = counts.get(depth, 0) + 1
+        return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
+
+    def in_order(self) -> tuple[bytes, list[Index]]:
+        """Tokens in pre-order, lower half first, and the centres of the proved leaves in this order."""
+        tokens, centres, waiting = bytearray(), [], [0]
+        while waiting:
+            name = waiting.pop()
+            tokens.append(self.token[name])
+            if self.token[name] >= SPLIT:
+                waiting += [self.below[name] + 1, self.below[name]]
+            elif self.token[name] == PROVED:
+                centres.append(self.centre[name])
+        return bytes(tokens), centres

@@ -1,0 +1,211 @@
+"""Ceilings of relative manipulability, against null spaces at random configurations, and forgers."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+import pytest
+import written
+
+import holdfast as hf
+import oracles
+from holdfast.certificates import ceiling_claim, documents, verifier
+from holdfast.certificates.joint_boxes.wrenches import Ceiling
+from holdfast.certificates.taylor import Chain
+from holdfast.errors import InputError, TaskError
+
+pytest.importorskip("flint", reason="python-flint is not installed")
+MIDDLE = np.radians([-35, -45, 51, -111, -46, 84, -3])
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return hf.arms.load("panda")
+
+
+def box_around(arm, degrees):
+    half = np.radians(degrees)
+    return np.column_stack([np.maximum(MIDDLE - half, arm.lower), np.minimum(MIDDLE + half, arm.upper)])
+
+
+def kept(arm, q, rows=slice(None)):
+    """Relative manipulability after each lock, (N, n), by null spaces."""
+    _, _, v = np.linalg.svd(arm.jacobian(q)[:, rows])
+    m = v.shape[1] - (arm.n - np.arange(6)[rows].size)
+    return np.linalg.norm(v[:, m:], axis=1)
+
+
+def checked(proof, tmp_path, name="a"):
+    return hf.check_certificate(proof.write(tmp_path / f"{name}.certificate"))
+
+
+@pytest.mark.parametrize(
+    ("degrees", "greatest", "times", "most"), [(5, 0.0667, 1.3, 1024), (5, 0.0667, 1.1, 23_300), (10, 0.0705, 1.1, 175_000)]
+)
+def test_boxes_of_a_panda(panda, tmp_path, rng, degrees, greatest, times, most):
+    """Those of the specification, whose search needed so many leaves; the value it found occurs."""
+    claim = ceiling_claim(panda, box_around(panda, degrees), greatest * times)
+    proof = hf.certify(claim)
+    assert proof.ok
+    assert proof.leaves < most / 60
+    check = checked(proof, tmp_path)
+    assert check.rejected == 0
+    assert check.accepted == check.leaves
+    assert check.undecided == 0
+    assert greatest - 1e-4 < proof.value <= claim.threshold
+    values = kept(panda, rng.uniform(*claim.joint_box.T, (20_000, 7))).min(axis=1)
+    assert values.max() <= proof.value
+    np.testing.assert_allclose(kept(panda, proof.best[None]).min(), proof.value, atol=1e-9)
+    assert f"{np.floor(proof.value * 1e6) / 1e6:.6f} occurs" in check.said
+
+
+@pytest.mark.parametrize("kind", ["RRRRRRR", "RRRRRRRR", "planar"])
+def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
+    """The search's, and leaves that the verifier accepts, at random points of random boxes of random arms."""
+    sharp = 0.0
+    for _ in range(3):
+        arm, rows = (flat4, [0, 1, 5]) if kind == "planar" else (oracles.random_arm(rng, types=kind, limits=2.5), slice(None))
+        n, chain, half = arm.n, Chain.of(arm), 10 ** rng.uniform(-3, -0.8, (12, arm.n))
+        if kind == "planar":
+            chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
+        middle = rng.uniform(-2, 2, half.shape)
+        steps = rng.choice([-1.0, 1.0, 0.3], (40, *half.shape))
+        true = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 12, n).max(axis=0)
+        test = Ceiling(chain, tuple(range(n)), 0.5)
+        thresholds = rng.uniform(0.3, 1.0, 12) * np.sqrt((n - 6 if n > 6 else 1) / n)
+        for k in range(12):
+            box = np.column_stack([middle[k] - half[k], middle[k] + half[k]])
+            test.slope = thresholds[k] / np.sqrt(1 - thresholds[k] ** 2)
+            token = int(test(middle[[k]], half[[k]])[0][0])
+            document = {
+                "arm": documents._stored(arm), "joint_box": documents._hexes(box), "threshold": thresholds[k].hex(),
+                "locks": list(range(n)), "task": "planar-pose" if kind == "planar" else "pose",
+            }  # fmt: skip
+            leaves = verifier.Wrenches(document)
+            cell = ((0, 0),) * n
+            accepted = [j for j in range(n) if not leaves.rejected([(cell, j)])[1]]
+            assert token < 0 or token - 128 in accepted
+            assert all(true[k, j] <= thresholds[k] for j in accepted)
+            if accepted:
+                sharp = max(sharp, true[k, accepted].min() / thresholds[k])
+    assert sharp > 0.6
+
+
+def test_a_planar_arm_of_which_two_joints_may_lock(flat4, tmp_path, rng):
+    box = np.array([[-1, 1], [0.2, 0.6], [0.5, 0.8], [-3, 3]])
+    claim = ceiling_claim(flat4, box, 0.6, failures=["joint2", 3], task="planar-pose")
+    values = kept(flat4, rng.uniform(*box.T, (5000, 4)), [0, 1, 5])[:, [1, 3]].min(axis=1)
+    proof = hf.certify(claim)
+    assert proof.value >= values.max()
+    assert proof.refuted == (proof.value > 0.6)
+    again = hf.certify(ceiling_claim(flat4, box, proof.value * 1.02, failures=["joint2", 3], task="planar-pose"))
+    assert again.ok
+    assert checked(again, tmp_path).rejected == 0
+
+
+def test_a_ceiling_below_what_occurs_is_refuted(panda, tmp_path):
+    proof = hf.certify(ceiling_claim(panda, box_around(panda, 5), 0.06))
+    assert proof.refuted
+    assert "Refuted by a witness" in proof.describe()[1]
+    assert "Refuted: 0.066" in checked(proof, tmp_path).said
+
+
+# ---- forgers ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def fine(panda):
+    return hf.certify(ceiling_claim(panda, box_around(panda, 5), 0.0667 * 1.04)).document
+
+
+def shifted(text, by):
+    return (float.fromhex(text) + by).hex()
+
+
+def put(path, change):
+    def forge(d):
+        for key in path[:-1]:
+            d = d[key]
+        d[path[-1]] = change(d[path[-1]]) if callable(change) else change
+
+    return forge
+
+
+def tree(change):
+    return put(["tree"], lambda x: written.packed(change(written.unpacked(x))))
+
+
+@pytest.mark.parametrize(
+    "forge",
+    [
+        put(["threshold"], (0.0667).hex()),
+        put(["threshold"], (0.01).hex()),
+        put(["threshold"], (2.0).hex()),
+        put(["joint_box", 1, 1], lambda x: shifted(x, 0.5)),
+        put(["joint_box", 1, 1], lambda x: shifted(x, 9)),
+        put(["joint_box", 3, 0], lambda x: shifted(x, -0.3)),
+        put(["locks"], [0, 1]),
+        put(["locks"], []),
+        put(["locks"], [1, 0]),
+        put(["task"], "planar-pose"),
+        put(["task"], "position"),
+        put(["arm", "joints", 3, "origin", 0], lambda x: shifted(x, 0.1)),
+        put(["arm", "joints", 3, "type"], "prismatic"),
+        put(["best", 1], lambda x: shifted(x, 1.0)),
+        put(["volumes", "undecided"], "1/2^0"),
+        tree(lambda t: t[:-1]),
+        tree(lambda t: t + b"\x80"),
+        tree(lambda t: bytes([t[-1]])),
+        tree(lambda t: b"\x02"),
+        tree(lambda t: t.replace(t[-1:], b"\x80")),
+        tree(lambda t: t.replace(t[-1:], b"\xc0")),
+        put(["kind"], "refutation"),
+    ],
+)
+def test_forged_with_digests_repaired(fine, tmp_path, forge):
+    verdict = verifier.verify(written.stored(fine, tmp_path / "fine.certificate"))
+    assert verdict.rejected == 0
+    assert verdict.accepted > 20
+    forged = copy.deepcopy(fine)
+    forge(forged)
+    try:
+        verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
+    except (verifier.Refused, KeyError):
+        return
+    assert verdict.rejected > 0
+    assert verdict.undecided > 0
+
+
+def test_another_best_configuration_is_believed_only_as_far_as_it_goes(fine, tmp_path):
+    forged = copy.deepcopy(fine)
+    forged["best"] = [x.hex() for x in MIDDLE]
+    verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
+    assert verdict.rejected == 0
+    np.testing.assert_allclose(verdict.occurs, kept(hf.arms.load("panda"), MIDDLE[None]).min(), atol=1e-12)
+    assert verdict.occurs < hf.check_certificate(written.stored(fine, tmp_path / "b.certificate")).leaves
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"threshold": 0.38}, "nothing to prove"),
+        ({"threshold": 0.0}, "from 1e-6 to 1"),
+        ({"task": "position"}, "whose rows are all of the motion"),
+        ({"task": "planar-pose"}, "move in the xy plane"),
+        ({"joint_box": np.zeros((6, 2))}, "two angles for each of 7 joints"),
+        ({"joint_box": {0: (1, 0)}}, "lower one first"),
+    ],
+)
+def test_what_makes_no_claim(panda, change, sentence):
+    with pytest.raises(InputError, match=sentence):
+        ceiling_claim(panda, **({"joint_box": {}, "threshold": 0.1} | change))
+
+
+def test_what_has_no_redundancy_or_slides(mixed5, flat4):
+    with pytest.raises(InputError, match="slides"):
+        ceiling_claim(mixed5, {}, 0.1)
+    with pytest.raises(TaskError, match="redundant"):
+        ceiling_claim(hf.arms.load("planar-3r"), {}, 0.1, task="planar-pose")
+    with pytest.raises(InputError, match="no limits"):
+        ceiling_claim(flat4.without_limits, {}, 0.1, task="planar-pose")

@@ -1,0 +1,270 @@
+"""What is said to be out of reach, against closed forms, configurations drawn at random, and forgers."""
+
+from __future__ import annotations
+
+import copy
+from itertools import count
+
+import numpy as np
+import pytest
+import written
+
+import holdfast as hf
+import oracles
+from holdfast.certificates import documents, out_of_reach_claim, verifier
+from holdfast.certificates.joint_boxes import exclusion
+from holdfast.certificates.joint_boxes.segments import Segment
+from holdfast.certificates.taylor import Chain
+from holdfast.errors import InputError
+
+pytest.importorskip("flint", reason="python-flint is not installed")
+SHOULDER = np.array([0, 0, 0.333])  # of the Panda, m
+
+
+@pytest.fixture(scope="module")
+def three():
+    return hf.arms.load("planar-3r")
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return hf.arms.load("panda")
+
+
+def checked(proof, tmp_path):
+    return hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+
+
+def whole(check):
+    return check.rejected == 0 and check.accepted == check.leaves > 0 and check.undecided == 0
+
+
+def away(metres):
+    """Of the shoulder, between up and ahead."""
+    return SHOULDER + np.array([metres, 0, metres]) / np.sqrt(2)
+
+
+@pytest.mark.parametrize(
+    ("joint", "degrees", "at"),
+    [
+        ("panda_joint4", (-150, -145), away(0.75)),
+        ("panda_joint4", (-130, -125), away(0.715)),
+        ("panda_joint4", (-90, -85), away(0.875)),
+        ("panda_joint4", (-60, -50), away(0.26)),
+        ("panda_joint6", (0, 5), away(0.92)),
+    ],
+)
+def test_the_length_of_a_locked_panda(panda, tmp_path, rng, joint, degrees, at):
+    """A distance from the shoulder decides, with no more than 200 leaves; and of many configurations none is in the box."""
+    angle = tuple(np.radians(degrees))
+    claim = out_of_reach_claim(panda, at, 0.015, locked={joint: angle})
+    proof = hf.certify(claim)
+    assert proof.ok
+    assert proof.leaves <= 200
+    assert [lemma["link"] for lemma in proof.document["lemmas"]] == [0]
+    assert whole(checked(proof, tmp_path))
+    low, high = exclusion.ranges(claim).T
+    points = panda.forward_kinematics(rng.uniform(low, high, (20_000, 7)))[:, :3, 3]
+    assert not ((points > claim.box[:, 0]) & (points < claim.box[:, 1])).all(axis=1).any()
+
+
+def test_limits_may_be_the_reason(panda, tmp_path):
+    """Below the table, with the second joint leaning back: its length would do, its limits do not."""
+    proof = hf.certify(out_of_reach_claim(panda, (0.5, 0, -0.3), 0.015, locked={1: tuple(np.radians((-20, -15)))}))
+    assert proof.ok
+    assert proof.document["lemmas"][0]["link"] > 0
+    assert whole(checked(proof, tmp_path))
+
+
+@pytest.mark.parametrize(("centre", "fine"), [((2.9, 1.4), True), ((0.2, 0.1), True), ((2.2, 1.0), False), ((0.5, 0.5), False)])
+def test_closed_form_of_a_planar_arm(three, tmp_path, centre, fine):
+    """Three links of 1 m, the second joint at theta: exactly where |r - 2 cos(theta/2)| <= 1 is reached."""
+    claim = out_of_reach_claim(three, centre, 0.3, locked={"joint2": (0.6, 0.8)})
+    corners = np.abs(claim.box)
+    nearest = np.linalg.norm(np.where((claim.box[:, 0] < 0) & (claim.box[:, 1] > 0), 0, corners.min(axis=1)))
+    farthest, elbow = np.linalg.norm(corners.max(axis=1)), 2 * np.cos(np.array([0.6, 0.8]) / 2)
+    assert (nearest > elbow[0] + 1 or farthest < elbow[1] - 1) == fine
+    proof = hf.certify(claim)
+    check = checked(proof, tmp_path)
+    if fine:
+        assert proof.ok
+        assert whole(check)
+        return
+    assert proof.refuted
+    assert "Refuted" in check.said
+    tip = three.forward_kinematics(proof.witness)[:2, 3]
+    assert ((tip > claim.box[:, 0]) & (tip < claim.box[:, 1])).all()
+    assert 0.6 <= proof.witness[1] <= 0.8
+
+
+def leaf_of(tree, roots, point):
+    """The token of the leaf in which a point lies."""
+    box, place = roots.copy(), 0
+    while tree[place] >= 16:
+        axis, place = tree[place] - 16, place + 1
+        middle = box[axis].mean()
+        if point[axis] < middle:
+            box[axis, 1] = middle
+            continue
+        box[axis, 0] = middle
+        skip = 1
+        while skip:  # the lower half
+            skip += 1 if tree[place] >= 16 else -1
+            place += 1
+    return tree[place]
+
+
+@pytest.mark.parametrize("arm", ["planar-3r", "panda"])
+def test_no_configuration_is_excluded_with_its_own_target(arm, rng, tmp_path, monkeypatch):
+    """A box that is reached in part: each configuration lies with its tool in a leaf that is undecided."""
+    monkeypatch.setattr(exclusion, "_witness", lambda *_: None)
+    arm = hf.arms.load(arm)
+    where, size = {3: ((2.0, 1.6), 0.8), 7: ((0.55, 0.1, 0.75), 0.3)}[arm.n]
+    claim = out_of_reach_claim(arm, where, size, locked={3 % arm.n or 1: (-2.0, -1.2)} if arm.n == 7 else {1: (0.4, 1.2)})
+    batches = count()
+    found = exclusion.exclude(claim, 5, 0, np.inf, lambda: next(batches) > 12, lambda _: None)
+    assert 0 < found.undecided < 1
+    ranges = exclusion.ranges(claim)
+    q = rng.uniform(*ranges.T, (40_000, arm.n))
+    at = arm.forward_kinematics(q)[:, : len(where), 3]
+    inside = ((at > claim.box[:, 0]) & (at < claim.box[:, 1])).all(axis=1)
+    assert inside.sum() > 50
+    roots = np.vstack([ranges, claim.box])
+    assert {leaf_of(found.tree, roots, np.concatenate(pair)) for pair in zip(q[inside][:300], at[inside], strict=False)} == {2}
+    document = documents.refutation(claim, found, seconds=0.0)
+    verdict = verifier.verify(written.stored(document, tmp_path / "a.certificate"), sample=400)
+    assert verdict.rejected == 0
+    assert verdict.leaves > 0
+
+
+def test_bounds_of_distances_hold_and_mean_something(rng):
+    """The search's and the verifier's, at random points of random boxes of random arms."""
+    tight = []
+    for trial in range(12):
+        arm, first = oracles.random_arm(rng, types="RRRRR", limits=2.5), trial % 3
+        chain, last = Chain.of(arm), 5 - trial % 2
+        end = chain.origins[-1] if last == 5 else rng.uniform(-0.3, 0.3, 3)
+        part, half = Segment.of(chain, first, last, end), rng.uniform(0.01, 0.2, (30, last - first))
+        q, x, wide = rng.uniform(-2, 2, half.shape), rng.uniform(-0.8, 0.8, (30, 3)), rng.uniform(0, 0.05, (30, 3))
+        steps = rng.choice([-1.0, 1.0, 0.2], (200, 30, last - first + 3))
+        moved = [part.frames(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
+        true = np.linalg.norm(moved, axis=2)
+        pairs = [(part.nearest(q, half, x, wide)[0], part.farthest(q, half, x, wide)[0])]
+        document = {"arm": documents._stored(arm), "limits": [["-0x1.8p+1", "0x1.8p+1"]] * 5, "locked": -1, "lemmas": []}
+        leaves = verifier.Apart(document | {"target": {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3}})
+        joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
+        tip, z, places, lengths = leaves.moved(first, end, joints)
+        given = tip + verifier.Balls(-x), z, verifier.columns(tip, z, places), lengths, half, wide
+        pairs.append((leaves.nearest(*given), leaves.farthest(*given)))
+        for low, high in pairs:
+            assert (low <= true.min(axis=0)).all()
+            assert (high >= true.max(axis=0)).all()
+            tight.append((low / true.min(axis=0)).max())
+    assert np.median(tight) > 0.9
+
+
+# ---- forgers ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def fine(panda):
+    """Four trees: the main one and lemmas about several links."""
+    claim = out_of_reach_claim(
+        panda, (0.5, 0, -0.3), 0.015, locked={1: tuple(np.radians((-20, -15)))}, limits={0: (-1, 1), 5: (0.2, 3.0)}
+    )
+    return hf.certify(claim).document
+
+
+def shifted(text, by):
+    return (float.fromhex(text) + by).hex()
+
+
+def put(path, change):
+    def forge(d):
+        for key in path[:-1]:
+            d = d[key]
+        d[path[-1]] = change(d[path[-1]]) if callable(change) else change
+
+    return forge
+
+
+def cut(text):
+    return written.packed(written.unpacked(text)[:-1])
+
+
+@pytest.mark.parametrize(
+    "forge",
+    [
+        put(["target", "box", 2, 1], lambda x: shifted(x, 0.9)),
+        put(["angle", 1], lambda x: shifted(x, 1.9)),
+        put(["limits", 5, 0], lambda x: shifted(x, -1.0)),  # beyond the arm's own
+        put(["lemmas", 0, "most"], lambda x: shifted(x, -0.05)),
+        put(["lemmas", 0, "least"], lambda x: shifted(x, 0.05)),
+        put(["lemmas", 0, "link"], lambda x: x + 1),
+        put(["lemmas", 0, "point", 2], lambda x: shifted(x, 0.05)),
+        put(["lemmas", 0, "tree"], cut),
+        put(["lemmas", 0, "tree"], written.packed(b"\0")),
+        put(["lemmas", 0, "tree"], written.packed(b"\2")),
+        put(["lemmas"], []),
+        put(["tree"], cut),
+        put(["tree"], written.packed(b"\0")),
+        put(["tree"], written.packed(b"\2")),  # volumes as before
+        put(["tree"], lambda x: written.packed(written.unpacked(x) + b"\0")),
+        put(["locked"], 3),
+        put(["volumes", "undecided"], "1/2^0"),
+        put(["arm", "joints", 3, "origin", 0], lambda x: shifted(x, 0.1)),
+        put(["witness"], [(0.1).hex()] * 7),
+        put(["task"], "pose"),
+        put(["kind"], "reach"),
+    ],
+)
+def test_forged_with_digests_repaired(fine, tmp_path, forge):
+    assert whole(hf.check_certificate(written.stored(fine, tmp_path / "fine.certificate")))
+    forged = copy.deepcopy(fine)
+    forge(forged)
+    try:
+        verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
+    except (verifier.Refused, KeyError):
+        return
+    assert verdict.rejected > 0
+    assert verdict.undecided > 0
+    assert not verdict.refuted
+
+
+@pytest.mark.parametrize(
+    "forge", [put(["target", "box", 2, 1], lambda x: shifted(x, 1e-6)), put(["angle", 1], lambda x: shifted(x, 1e-6))]
+)
+def test_a_wider_claim_that_the_same_boxes_prove_is_accepted(fine, tmp_path, forge):
+    forged = copy.deepcopy(fine)
+    forge(forged)
+    assert whole(hf.check_certificate(written.stored(written.repaired(forged), tmp_path / "a.certificate")))
+
+
+def test_what_only_just_holds_holds_no_longer(three, tmp_path):
+    """The far corner of a box 1 um beyond reach; 2 um nearer it is reached, and the verifier says so too."""
+    far = 1 + 2 * np.cos(0.3)
+    document = hf.certify(out_of_reach_claim(three, (far + 1e-6 + 0.05, 0), 0.1, locked={1: (0.6, 0.8)})).document
+    assert whole(hf.check_certificate(written.stored(document, tmp_path / "a.certificate")))
+    put(["target", "box", 0, 0], lambda x: shifted(x, -2e-6))(document)
+    verdict = verifier.verify(written.stored(written.repaired(document), tmp_path / "a.certificate"))
+    assert verdict.rejected > 0
+    assert verdict.undecided > 0
+
+
+def test_a_forged_witness_is_rejected(three, tmp_path):
+    document = hf.certify(out_of_reach_claim(three, (0.5, 0.5), 0.3)).document
+    for witness, good in ((document["witness"], True), ([(0.3).hex()] * 3, False), (["0x1.8p+1"] * 3, False)):
+        forged = written.repaired(document | {"witness": witness})
+        verdict = verifier.verify(written.stored(forged, tmp_path / "a.certificate"))
+        assert verdict.refuted == good
+        assert (verdict.rejected == 0) == good
+        assert ("Refuted" in verdict.sentence) == good
+
+
+def test_what_makes_no_claim(panda, three, mixed5):
+    with pytest.raises(InputError, match="slides"):
+        out_of_reach_claim(mixed5, (0.5, 0, 0.5), 0.1)
+    with pytest.raises(InputError, match="move in the xy plane"):
+        out_of_reach_claim(panda, (0.5, 0.5), 0.1)
+    with pytest.raises(InputError, match="lower one first"):
+        out_of_reach_claim(three, (0.5, 0.5), 0.1, locked={0: (1, 0)})

@@ -1,0 +1,166 @@
+"""Certificates of poses, against sampled errors, scipy's rotations and Pinocchio's inverse kinematics."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+
+import holdfast as hf
+import oracles
+from holdfast.certificates import reach_claim, tolerant_claim
+from holdfast.certificates.taylor import Form, Reach
+from holdfast.errors import InputError
+
+START = np.radians([20, -10, 15, -110, -10, 105, 60])
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return hf.arms.load("panda")
+
+
+def axial(off):
+    return np.stack([off[:, 2, 1] - off[:, 1, 2], off[:, 0, 2] - off[:, 2, 0], off[:, 1, 0] - off[:, 0, 1]], axis=1) / 2
+
+
+@pytest.mark.parametrize("turning", [False, True])
+@pytest.mark.parametrize("locked", [-1, 2])
+def test_the_error_is_never_larger_than_its_bound(locked, turning, rng):
+    """As for positions; a section that follows roll, pitch and yaw turns the tool as scipy does, to first order."""
+    arm, count = oracles.random_arm(rng, types="R" * 7, limits=2.5), 30
+    q = rng.uniform(-1.5, 1.5, (count, 7))
+    tool = arm.forward_kinematics(q)
+    nearly = Rotation.from_rotvec(rng.uniform(-0.01, 0.01, 3)).as_matrix()
+    wanted = (tool[:, :3, :3] @ nearly) if turning else np.tile(tool[0, :3, :3] @ nearly, (count, 1, 1))
+    if not turning:  # one rotation for all
+        q, tool = np.tile(q[:1], (count, 1)), np.tile(tool[:1], (count, 1, 1))
+    reach = Reach(arm, 6, locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
+    targets = tool[:, :3, 3] + rng.uniform(-1e-3, 1e-3, (count, 3))
+    if turning:
+        targets = np.concatenate([targets, Rotation.from_matrix(wanted).as_euler("xyz")], axis=1)
+    form, axes = Form.at(reach, q, targets), targets.shape[1]
+    cells, sections = rng.uniform(0, 0.03, (count, axes + (locked >= 0))), rng.uniform(0, 0.03, (count, 6))
+    above, below, far = form.sides(cells, sections)
+    jacobians, inverse = arm.jacobian(q), np.zeros((count, 7, 6))
+    off = tool[:, :3, :3] @ wanted.transpose(0, 2, 1)
+    np.testing.assert_allclose(form.error, np.concatenate([tool[:, :3, 3] - targets[:, :3], axial(off)], axis=1), atol=1e-12)
+
+    def error(q, targets):
+        at = arm.forward_kinematics(q)
+        turned = Rotation.from_euler("xyz", targets[:, 3:]).as_matrix() if turning else wanted
+        return np.concatenate([at[:, :3, 3] - targets[:, :3], axial(at[:, :3, :3] @ turned.transpose(0, 2, 1))], axis=1)
+
+    by_joint, by_angle = (
+        np.stack([(error(q + a, targets + b) - error(q - a, targets - b)) / 2e-6 for a, b in steps], axis=2)
+        for steps in (
+            [(1e-6 * np.eye(7)[k], 0) for k in range(7)],
+            [(0, 1e-6 * np.eye(axes)[k]) for k in range(3, axes)] or [(0, 0)],
+        )
+    )
+    inverse[:, reach.free] = np.linalg.pinv(by_joint[:, :, reach.free])
+    assert np.abs(by_joint[:, :3] - jacobians[:, :3]).max() < 1e-6
+    closest = 0.0
+    for _ in range(40):
+        delta, s = rng.choice([-1.0, 1.0, 0.3], cells.shape) * cells, rng.choice([-1.0, 1.0, 0.3], (count, 6)) * sections
+        moved = s.copy()
+        moved[:, :3] += delta[:, :3]
+        if turning:
+            moved -= (by_angle @ delta[:, 3:6, None])[..., 0]
+        if locked >= 0:
+            moved -= by_joint[:, :, locked] * delta[:, -1:]
+        follow = (inverse @ moved[:, :, None])[..., 0]
+        if locked >= 0:
+            follow[:, locked] = delta[:, -1]
+        assert (np.abs(follow) <= far + 1e-8).all()
+        gap = error(q + follow, targets + delta[:, :axes]) - s
+        assert (gap <= above + 1e-8).all()
+        assert (-gap <= below + 1e-8).all()
+        closest = max(closest, float(np.maximum(gap / above, -gap / below).max()))
+    assert closest > 0.03  # ten coordinates seldom conspire
+
+
+def reached(arm, model, tool, data, place, wanted, locked, angle, rng):
+    """Whether scipy's bounded least squares with Pinocchio's kinematics finds a configuration with this pose of the tool."""
+    free = [k for k in range(arm.n) if k != locked]
+    goal = pin.SE3(wanted, place)
+
+    def off(x):
+        q = np.full(arm.n, angle)
+        q[free] = x
+        pin.framesForwardKinematics(model, data, q)
+        return pin.log6(goal.actInv(data.oMf[tool])).vector
+
+    for _ in range(60):
+        bounds = arm.lower[free], arm.upper[free]
+        found = least_squares(off, rng.uniform(*bounds), bounds=bounds, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        if np.abs(found.fun).max() < 1e-9:
+            return True
+    return False
+
+
+@pytest.mark.parametrize(("turning", "locked"), [(False, 0), (True, -1)])
+def test_every_pose_has_a_configuration(panda, turning, locked, rng, tmp_path):
+    """Random targets of a proved box, corners among them, by an inverse kinematics that shares nothing."""
+    tip = panda.forward_kinematics(START)
+    angles = Rotation.from_matrix(tip[:3, :3]).as_euler("ZYX")[::-1]  # yaw about z is the first of these
+    rpy = np.column_stack([angles - 0.02, angles + 0.02])
+    lock = {locked: (START[locked] - 0.03, START[locked] + 0.03)} if locked >= 0 else None
+    claim = reach_claim(panda, tip[:3, 3], 0.03, locked=lock, **({"rpy": rpy} if turning else {"rotation": tip[:3, :3]}))
+    proof = hf.certify(claim)
+    assert proof.ok
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert check.ok
+    assert check.undecided == 0
+    assert ("Rz(yaw) Ry(pitch) Rx(roll)" in check.claim) == turning
+    model, tool = oracles.to_pinocchio(panda)
+    data = model.createData()
+    for _ in range(6):
+        at = claim.box[:, 0] + rng.uniform(-0.2, 1.2, len(claim.box)).clip(0, 1) * np.diff(claim.box)[:, 0]
+        roll, pitch, yaw = at[3:] if turning else (0, 0, 0)
+        wanted = Rotation.from_euler("ZYX", [yaw, pitch, roll]).as_matrix() if turning else tip[:3, :3]
+        angle = rng.uniform(*claim.angle) if locked >= 0 else 0.0
+        assert reached(panda, model, tool, data, at[:3], wanted, locked, angle, rng)
+
+
+def test_a_tool_turned_half_way_round_is_not_where_it_should_be(panda):
+    """The axial part of what is left to turn is 0 there as well; joint 7 cannot turn so far."""
+    tip = panda.forward_kinematics(START)
+    limits = {k: (x - 0.3, x + 0.3) for k, x in enumerate(START)}
+    for half_turn, share in ((0, 1), (1, 0)):
+        turned = tip[:3, :3] @ Rotation.from_euler("z", np.pi * half_turn).as_matrix()
+        assert hf.certify(reach_claim(panda, tip[:3, 3], 0.01, rotation=turned, limits=limits), halvings=2).proved == share
+
+
+def test_a_pose_is_tolerant_of_a_lock(panda, tmp_path):
+    tip = panda.forward_kinematics(START)
+    ranges = {k: (x - 0.02, x + 0.02) for k, x in enumerate(START)}
+    claim = tolerant_claim(panda, tip[:3, 3], 0.005, rotation=tip[:3, :3], working_ranges=ranges, failures=[0, 6])
+    proof = hf.certify(claim)
+    assert proof.ok
+    assert hf.check_certificate(proof.write(tmp_path)).tolerant == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"rotation": np.eye(2)}, "orthonormal"),
+        ({"rotation": -np.eye(3)}, "right-handed"),
+        ({"rotation": np.full((3, 3), np.nan)}, "orthonormal"),
+        ({"rotation": np.eye(3), "rpy": np.zeros((3, 2))}, "one of them"),
+        ({"rpy": [[0, 1], [0, 1], [1, 0]]}, "the lower first"),
+        ({"rpy": [0, 1, 2]}, "roll, pitch and yaw"),
+        ({"rotation": np.eye(3), "centre": (0.5, 0)}, "three numbers"),
+    ],
+)
+def test_what_makes_no_claim(panda, change, sentence):
+    with pytest.raises(InputError, match=sentence):
+        reach_claim(panda, **({"centre": (0.5, 0, 0.5), "size": 0.1} | change))
+
+
+def test_a_pose_needs_six_joints():
+    arm = hf.arms.load("ur5")
+    with pytest.raises(InputError, match="5 joints are left for 6 rows"):
+        reach_claim(arm, (0.4, 0.1, 0.3), 0.01, rotation=np.eye(3), locked={0: (0, 0.1)})
