@@ -20,7 +20,6 @@ from holdfast.teleop.protocol.protocol import Protocol, Training, read_protocol
 from holdfast.teleop.trials.scenarios import Scenario
 from holdfast.teleop.trials.stick import Stick
 
-
 # Every second picture: to draw is most of what a page costs here.
 HALF = """
 const whole = window.requestAnimationFrame.bind(window);
