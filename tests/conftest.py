@@ -48,6 +48,7 @@ def pytest_configure(config):
             _MADE.append(folder)
         os.environ["HOLDFAST_CACHE"] = folder
     config.addinivalue_line("markers", "interpreted: kernels made in the test run on CasADi's machine; for arms of its own.")
+    config.addinivalue_line("markers", "rough: figures of its pages are not laid out; others of their kind are.")
     # Node is installed beside Python, whether or not the environment was activated.
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
     os.environ["HOLDFAST_NOTICES"] = "off"  # they depend on how long something takes
@@ -60,7 +61,7 @@ def pytest_configure(config):
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item):
     # Matplotlib takes as long to lay a figure out as to draw it; where pages are not the subject nobody looks at the layout.
-    _LAID_OUT[:] = [item.nodeid.startswith(PAGES)]
+    _LAID_OUT[:] = [item.nodeid.startswith(PAGES) and item.get_closest_marker("rough") is None]
     return (yield)
 
 

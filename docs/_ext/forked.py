@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 
 # What commands import when they need it, beside all of the program.
 MODULES = ("jinja2", "matplotlib.backends.backend_svg", "scipy.optimize", "scipy.spatial", "scipy.stats", "typer.rich_utils")
+MODULES += ("llvmlite.binding", "pandas", "xarray")
 
 
 class Program:

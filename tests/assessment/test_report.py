@@ -84,7 +84,10 @@ def text(name: str) -> str:
         return case(name).report(Path(folder) / "r.html").read_text(encoding="utf-8").replace("\u00a0", " ")
 
 
-@pytest.mark.parametrize("name", CASES)
+LAID_OUT = ("paper", "panda", "joints", "weighted", "sliding", "nasty")
+
+
+@pytest.mark.parametrize("name", [name if name in LAID_OUT else pytest.param(name, marks=pytest.mark.rough) for name in CASES])
 def test_every_case_renders(name: str) -> None:
     a, html = case(name), text(name)
     check(html)

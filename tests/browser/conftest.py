@@ -20,6 +20,12 @@ from holdfast.teleop.protocol.protocol import Protocol, Training, read_protocol
 from holdfast.teleop.trials.scenarios import Scenario
 from holdfast.teleop.trials.stick import Stick
 
+# Every second picture: to draw is most of what a page costs here.
+HALF = """
+const whole = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => whole(() => whole(draw));
+"""
+
 
 # Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.
 @pytest.fixture(scope="package")
@@ -111,9 +117,10 @@ def contexts(browser) -> Iterator:
     troubles: list[str] = []
 
     def context(expected: str | None = None):
-        made = browser.new_context(viewport={"width": 1280, "height": 720})
+        made = browser.new_context(viewport={"width": 640, "height": 400})
         made.set_default_timeout(60_000)
         made.add_init_script(path=OPERATOR)
+        made.add_init_script(HALF)
         made.on("request", lambda request: asked.append(request.url))
         made.on("page", lambda page: page.on("websocket", lambda socket: asked.append(socket.url)))
         made.on("weberror", lambda error: troubles.append(str(error.error)))

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pinocchio as pin
 import pytest
+from fuzzed import Claimed
 from scipy.optimize import least_squares
 
 import holdfast as hf
@@ -121,6 +122,10 @@ def test_every_target_of_a_panda_has_a_configuration(panda, elbow, rng, tmp_path
     claim, proof = elbow
     assert proof.ok
     assert hf.check_certificate(proof.write(tmp_path / "a.certificate")).rejected == 0
+    claimed = Claimed(tmp_path / "a.certificate")
+    assert claimed.unreached(rng, 400) == (0, pytest.approx(0, abs=1e-12))
+    claimed.corner[:, 0] += 1.0  # the judge can say no
+    assert claimed.unreached(rng, 1, tries=2)[0] == 1
     model, tool = oracles.to_pinocchio(panda)
     data = model.createData()
     free = [k for k in range(7) if k != 3]
@@ -156,6 +161,7 @@ def test_an_arm_on_a_rail(lock, rng, tmp_path):
     proof = hf.certify(claim)
     assert proof.ok
     assert hf.check_certificate(proof.write(tmp_path / "a.certificate")).rejected == 0
+    assert Claimed(tmp_path / "a.certificate").unreached(rng, 100)[0] == 0
     assert '"prismatic"' in (tmp_path / "a.certificate").read_text()
     model, tool = oracles.to_pinocchio(arm)
     data, free = model.createData(), [k for k in range(7) if k != claim.locked]

@@ -596,6 +596,21 @@ def test_a_forged_bundle_is_refused(bundle, forge):
         bend(written.repaired(forged), bundle)
 
 
+def test_what_overlapping_cells_cover(rng):
+    """Against a grid; and never less where the steps are spent."""
+    for _ in range(20):
+        cells = set()
+        for _ in range(rng.integers(1, 30)):
+            depths = rng.integers(0, 5, 3)
+            cells.add(tuple((int(rng.integers(1 << d)), int(d)) for d in depths))
+        grid = np.zeros((16,) * 3, dtype=bool)
+        for cell in cells:
+            grid[tuple(slice(k << (4 - d), (k + 1) << (4 - d)) for k, d in cell)] = True
+        exact = Fraction(int(grid.sum()), 16**3)
+        assert verifier.covered(cells, [10**6]) == exact
+        assert verifier.covered(cells, [50]) >= exact
+
+
 def test_a_sample_is_said_to_be_one(locked, tmp_path):
     path = written.stored(locked, tmp_path / "a.certificate")
     verdict = verifier.verify(path, sample=3)

@@ -50,7 +50,7 @@ def visit(browser):
     """``visit(studio)``: a page that has opened it, and the window behind that page."""
     contexts = []
 
-    def go(served, width=900, height=620, **options):
+    def go(served, width=640, height=440, **options):
         before = set(served.windows)
         context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **options)
         contexts.append(context)

@@ -84,7 +84,7 @@ def on_screen(camera, place):
 
 
 def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
-    page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
+    page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR), 900, 620)
     camera, machine = window.client.camera, window.machine
     q, hand = window.q, machine.hand(window.q)
 

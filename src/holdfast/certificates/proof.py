@@ -102,7 +102,7 @@ class TolerantProof(Result):
         """At least this share of the targets is proved while healthy, and for every lock at every locked angle."""
         count = len(self.claim.box)
         unproved = {cell[:count] for part in self.parts for cell in documents.undecided(part.document)}
-        return max(Fraction(0), 1 - verifier.volume(unproved))
+        return 1 - verifier.covered(unproved, [verifier.MOST_STEPS])
 
     @property
     def leaves(self) -> int:

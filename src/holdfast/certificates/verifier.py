@@ -29,7 +29,7 @@ import re
 import sys
 import time
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -52,6 +52,7 @@ Array = NDArray[np.float64]
 Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
 
 MOST_BYTES, MOST_LEAVES, MOST_DEPTH, MOST_JOINTS, CHUNK = 256 << 20, 1 << 24, 200, 64, 256
+MOST_STEPS = 1_000_000  # to find what overlapping cells cover
 UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
 LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
 LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere
@@ -256,6 +257,20 @@ def cells(tree: bytes, axes: int, last: int = 2, locks: int = 256) -> Iterator[t
 def volume(parts: Iterable[Cell]) -> Fraction:
     """What part of the root box cells are."""
     return sum((Fraction(1, 1 << sum(d for _, d in cell)) for cell in parts), Fraction(0))
+
+
+def covered(parts: Collection[Cell], steps: list[int]) -> Fraction:
+    """What part of the root box cells cover that may overlap; something above that once ``steps`` (one number) are spent."""
+    steps[0] -= len(parts)
+    if len(parts) < 2 or steps[0] < 0 or any(not any(d for _, d in cell) for cell in parts):
+        return min(Fraction(1), volume(parts))
+    axis = min(range(len(next(iter(parts)))), key=lambda a: sum(cell[a][1] == 0 for cell in parts))
+    halves: tuple[set[Cell], set[Cell]] = set(), set()
+    for cell in parts:
+        (k, d), before, after = cell[axis], cell[:axis], cell[axis + 1 :]
+        for upper in (0, 1) if d == 0 else (k >> (d - 1),):
+            halves[upper].add((*before, (k - (upper << (d - 1)), d - 1) if d else (0, 0), *after))
+    return (covered(halves[0], steps) + covered(halves[1], steps)) / 2
 
 
 def per_cent(part: Fraction, up: bool = False) -> str:
@@ -854,7 +869,7 @@ class Verdict:
     @property
     def tolerant(self) -> Fraction:
         """At least this part of the targets is proved, for every locked value and, of a bundle, every lock."""
-        return max(Fraction(0), 1 - volume(self.shadow))
+        return 1 - covered(self.shadow, [MOST_STEPS])
 
     @property
     def sentence(self) -> str:

@@ -67,15 +67,15 @@ def cloud_of(found: Assessment, label: str) -> Cloud:
     """The kept poses of an assessment, at most 2500 of them."""
     from holdfast.report.scenes import Scale
 
-    data = found.dataset
-    q, values = np.asarray(data["q"].values, dtype=np.float64), np.asarray(data["index"].values, dtype=np.float64)
+    data = found.columns
+    q, values = np.asarray(data["q"][:], dtype=np.float64), np.asarray(data["index"][:], dtype=np.float64)
     pick = np.unique(np.linspace(0, len(q) - 1, min(MOST, len(q))).astype(int))
     q, values = q[pick], values[pick]
     sound: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
     points = np.empty((len(q), 3))
     points[sound] = found.arm.forward_kinematics(q[sound])[:, :3, 3] if sound.any() else 0.0
     if "position" in data:
-        points = np.asarray(data["position"].values, dtype=np.float64)[pick]
+        points = np.asarray(data["position"][:], dtype=np.float64)[pick]
     elif not sound.all():
         points, q, values, sound = points[sound], q[sound], values[sound], sound[sound]
     scale = Scale.of(values[sound], smaller_is_better=found.index.better == "smaller")
