@@ -257,11 +257,12 @@ def out_of_reach_claim(
 
 
 @dataclass(frozen=True, kw_only=True)
-class CeilingClaim:
-    """For every configuration of a box, the least relative manipulability after one of some locks is at most a threshold.
+class BoundClaim:
+    """For every configuration of a box, a bound of the least relative manipulability after one of some locks.
 
     Attributes:
         arm: The arm, all of whose joints turn.
+        kind: ``ceiling``: at most the threshold; ``floor``: at least.
         task: ``pose``, or ``planar-pose``.
         joint_box: (n, 2) rad.
         threshold: Between 0 and 1.
@@ -269,6 +270,7 @@ class CeilingClaim:
     """
 
     arm: Arm
+    kind: str
     task: str
     joint_box: Array
     threshold: float
@@ -283,7 +285,7 @@ def ceiling_claim(
     *,
     failures: FailureSpec = "single",
     task: str = "pose",
-) -> CeilingClaim:
+) -> BoundClaim:
     """The claim that nowhere in a box of configurations relative manipulability is above a threshold.
 
     Args:
@@ -301,8 +303,35 @@ def ceiling_claim(
 
     Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
     """
+    return _bound(arm, "ceiling", joint_box, threshold, failures, task)
+
+
+@checked
+def floor_claim(
+    arm: Arm,
+    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
+    threshold: float,
+    *,
+    failures: FailureSpec = "single",
+    task: str = "pose",
+) -> BoundClaim:
+    """The claim that everywhere in a box of configurations relative manipulability is a threshold or above.
+
+    The arguments, errors and source are those of :func:`ceiling_claim`.
+    """
+    return _bound(arm, "floor", joint_box, threshold, failures, task)
+
+
+def _bound(
+    arm: Arm,
+    kind: str,
+    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
+    threshold: float,
+    failures: FailureSpec,
+    task: str,
+) -> BoundClaim:
     if task not in _SIX:
-        raise InputError(f"task is '{task}'; ceilings are for {' and '.join(_SIX)}, whose rows are all of the motion")
+        raise InputError(f"task is '{task}'; bounds are for {' and '.join(_SIX)}, whose rows are all of the motion")
     _need_turning(arm)
     locks = tuple(sorted(single_joints(arm, failures)))
     require_redundant(arm, _SIX[task], task, tuple((k,) for k in locks))
@@ -320,13 +349,14 @@ def ceiling_claim(
     if not np.isfinite(box).all():
         k = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
         raise InputError(f"{arm.joint_names[k]} has no limits; give its range")
-    # The squares of all relative manipulabilities sum to n - m, so the least of some is at most their mean.
-    most = float(np.sqrt(min(1.0, (arm.n - _SIX[task]) / len(locks))))
     if not 1e-6 <= threshold < 1:
         raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
+    # The squares of all relative manipulabilities sum to n - m, so the least of some is at most their mean.
+    most = float(np.sqrt(min(1.0, (arm.n - _SIX[task]) / len(locks))))
     if threshold >= most:
-        raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: nothing to prove")
-    return CeilingClaim(arm=arm, task=task, joint_box=box, threshold=float(threshold), locks=locks)
+        tail = "nothing to prove" if kind == "ceiling" else "no box has that floor"
+        raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: {tail}")
+    return BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)
 
 
 @dataclass(frozen=True, kw_only=True)
