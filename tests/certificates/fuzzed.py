@@ -61,7 +61,7 @@ class Claimed:
         wanted = self.wanted if self.wanted is not None else Rotation.from_euler("xyz", u[:, 3:]).as_matrix()
         return np.concatenate([off, Rotation.from_matrix(turn @ np.swapaxes(wanted, -1, -2)).as_rotvec()], axis=1)
 
-    def unreached(self, rng: np.random.Generator, count: int) -> tuple[int, float]:
+    def unreached(self, rng: np.random.Generator, count: int, tries: int = 30) -> tuple[int, float]:
         """Of so many targets in cells, mostly corners and faces, those without a configuration, and the largest error left."""
         which = rng.integers(len(self.q), size=count)
         at = self.corner[which] + rng.uniform(-1, 2, self.corner[which].shape).clip(0, 1) * self.size[which]
@@ -75,9 +75,9 @@ class Claimed:
         left = np.abs(self.error(q, u)).max(axis=1)
         beyond = np.maximum(self.low - q, q - self.high)[:, self.free].max(axis=1)
         bad = np.flatnonzero((left > 1e-9) | (beyond > 1e-9))
-        return sum(not self._found(q[k], u[k], rng) for k in bad), float(np.delete(left, bad).max(initial=0.0))
+        return sum(not self._found(q[k], u[k], rng, tries) for k in bad), float(np.delete(left, bad).max(initial=0.0))
 
-    def _found(self, q: Array, u: Array, rng: np.random.Generator) -> bool:
+    def _found(self, q: Array, u: Array, rng: np.random.Generator, tries: int) -> bool:
         """Whether bounded least squares finds one, from there and from elsewhere."""
         low, high = self.low[self.free], self.high[self.free]
 
@@ -86,7 +86,7 @@ class Claimed:
             full[self.free] = x
             return self.error(full[None], u[None])[0]
 
-        for k in range(30):
+        for k in range(tries):
             start = q[self.free] if k == 0 else rng.uniform(low, high)
             found: Any = least_squares(
                 error, start.clip(low + 1e-9, high - 1e-9), bounds=(low, high), xtol=1e-15, ftol=1e-15, gtol=1e-15

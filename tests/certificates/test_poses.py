@@ -136,6 +136,14 @@ def test_a_tool_turned_half_way_round_is_not_where_it_should_be(panda):
         assert hf.certify(reach_claim(panda, tip[:3, 3], 0.01, rotation=turned, limits=limits), halvings=2).proved == share
 
 
+def test_a_box_whose_middle_is_singular_is_halved(panda):
+    """Newton does not get there, but parts of the box are reached."""
+    q = np.radians([0, -45, 0, -135, 0, 90, 45])
+    tip = panda.forward_kinematics(q)
+    claim = reach_claim(panda, tip[:3, 3], 0.06, rotation=tip[:3, :3], locked={5: (q[5] - 0.05, q[5] + 0.05)})
+    assert hf.certify(claim, halvings=1).nodes > 5
+
+
 def test_a_pose_is_tolerant_of_a_lock(panda, tmp_path):
     tip = panda.forward_kinematics(START)
     ranges = {k: (x - 0.02, x + 0.02) for k, x in enumerate(START)}

@@ -51,7 +51,7 @@ class Pool:
         while targets < min(_MOST, self.cells / _EACH) and monotonic() < until:
             self._grow(until)
             targets += _TARGETS
-        self._added: list[tuple[Array, Array]] = [(self._at / self._unit, self.q)]
+        self._all, self._added = self.q[:0], [(self._at / self._unit, self.q)]
 
     def _grow(self, until: float) -> None:
         """By configurations of some targets more, where one is found."""
@@ -81,8 +81,8 @@ class Pool:
         """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""
         self._added.append((centre / self._unit, q))
 
-    def near(self, centre: Array, count: int) -> Array:
-        """(N, count, n) the nearest configurations by target and locked angle of centres (N, A), fewer if there are fewer."""
+    def _nearest(self, centre: Array, count: int) -> tuple[Array, Index]:
+        """(N, count) how far away in parts of the root, and which, of fewer if there are fewer."""
         if 2 * self._count < sum(len(q) for _, q in self._added):  # else the tree is made anew too often
             from scipy.spatial import KDTree
 
@@ -90,9 +90,19 @@ class Pool:
             self._added, self._count, self._near = [(at, self._all)], len(at), KDTree(at)
         count = min(count, self._count)
         if not count:
-            return np.empty((len(centre), 0, self._reach.n))
-        nearest = np.asarray(self._near.query(centre / self._unit, k=np.arange(1, count + 1), p=np.inf)[1])
+            return np.empty((len(centre), 0)), np.empty((len(centre), 0), dtype=np.int64)
+        away, nearest = self._near.query(centre / self._unit, k=np.arange(1, count + 1), p=np.inf)
+        return np.asarray(away), np.asarray(nearest)
+
+    def near(self, centre: Array, count: int) -> Array:
+        """(N, count, n) the nearest configurations by target and locked angle of centres (N, A), fewer if there are fewer."""
+        _, nearest = self._nearest(centre, count)
         return np.asarray(self._all[nearest])
+
+    def known(self, centre: Array, half: Array) -> NDArray[np.bool_]:
+        """(N,) whether one is known in cells (N, A), or in what is beside them where they are longer than wide."""
+        away, _ = self._nearest(centre, 1)
+        return np.asarray((away <= (half / self._unit).max(axis=1, keepdims=True)).any(axis=1))
 
     def _estimate(self) -> float:
         """The median over some of these of 2 to the halvings until one proves its cell."""

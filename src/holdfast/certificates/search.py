@@ -107,11 +107,13 @@ class Search:
         for k in np.flatnonzero(found):
             self.tree.prove(int(cells.name[k]), places[k])
         self.pool.add(centre[found], q[found])
-        # Where no configuration comes nearer to the middle than the cell is wide, none is looked for in its parts.
+        # Where no configuration comes nearer to the middle than the cell is wide, and none is known of another part of it, none
+        # is looked for in its parts.
         away, turned = self.reach.missed(q, centre[:, : self.reach.axes]).T
         turn = half[:, self.reach.axes :].sum(axis=1)
         lost = away > 2 * (np.linalg.norm(half[:, : self.reach.linear], axis=1) + turn * self.reach.swing)
         lost |= turned > 2 * half[:, self.reach.linear :].sum(axis=1) + _LEAST_TURN
+        lost[lost] = ~self.pool.known(centre[lost], half[lost])
         # Nor in small cells after nothing was proved of as many around each other as there are axes.
         barren = np.where(part > 0, 0, cells.barren + 1)
         axes = int((self.width > 0).sum())
