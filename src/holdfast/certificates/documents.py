@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import BoundClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
+from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
+from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 

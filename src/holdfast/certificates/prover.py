@@ -11,9 +11,10 @@ import numpy as np
 
 from holdfast.arguments import checked
 from holdfast.certificates import documents, structure, verifier
-from holdfast.certificates.claims import ROWS, BoundClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
+from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, bounded
 from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
+from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.search import Search
 from holdfast.certificates.structure import StructuralZero

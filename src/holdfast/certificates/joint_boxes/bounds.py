@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.claims import BoundClaim
 from holdfast.certificates.joint_boxes.halving import Halving, Test
 from holdfast.certificates.joint_boxes.kernels import Floor
 from holdfast.certificates.joint_boxes.refutations import Halved
 from holdfast.certificates.joint_boxes.wrenches import Ceiling
+from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.proof import early
 from holdfast.certificates.taylor import Chain
 from holdfast.indices import relative_manipulability

@@ -20,7 +20,7 @@ class Screws:
     """The screws of a chain: axes, then their moments about a point of the middle axis.
 
     Attributes:
-        n, middle: Joints; the link behind joint ``middle - 1`` is the one that stands still.
+        n, middle: Joints; the link behind joint ``middle - 1`` does not move.
         sign: (n, n) of axis l and joint j: 1 where j moves l behind the middle, -1 before it, else 0.
         nearer: (n, n) 1 where joint i is as near to the middle as j, or nearer.
         side: (n,) 1 behind the middle, -1 before it.

@@ -1,4 +1,4 @@
-"""``holdfast certify``, with a command for each kind of claim. ``holdfast certificate``: check, show."""
+"""``holdfast certify``, with a command for each kind of claim."""
 
 from __future__ import annotations
 
@@ -75,16 +75,10 @@ TimeOption = Annotated[
     float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
 ]
 CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
 
 command = typer.Typer(
     name="certify",
     help="Prove that an arm reaches every target of a box, and write a certificate.",
-    no_args_is_help=True,
-)
-certificate = typer.Typer(
-    name="certificate",
-    help="Check certificates, by code that shares nothing with what made them.",
     no_args_is_help=True,
 )
 
@@ -355,44 +349,6 @@ def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> No
         raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)
-
-
-@certificate.command()
-def check(
-    file: FileArgument,
-    sample: Annotated[
-        int | None, typer.Option("--sample", help="Only so many cells, drawn at random.", show_default=False)
-    ] = None,
-    workers: Annotated[int, typer.Option("--workers", help="Processes.")] = 1,
-    json_: JsonOption = False,
-) -> None:
-    """Check a certificate: every cell again, in ball arithmetic.
-
-    The exit code is 1 if a cell is rejected.
-
-    Example: holdfast certificate check reach.certificate
-    """
-    found = hf.check_certificate(file, sample=sample, workers=workers)
-    printed(found, json_)
-    if found.rejected:
-        raise typer.Exit(REJECTED)
-
-
-@certificate.command()
-def show(file: FileArgument) -> None:
-    """Show what a certificate claims, without checking the proof.
-
-    Example: holdfast certificate show reach.certificate
-    """
-    from holdfast.certificates import verifier
-
-    try:
-        document = verifier.load(file)
-    except verifier.Refused as error:
-        raise InputError(str(error)) from error
-    volumes = document["volumes"]
-    typer.echo(document["claim"])
-    typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
 
 
 def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:
