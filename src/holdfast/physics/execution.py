@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
 from holdfast.caching import cached_property
+from holdfast.cell.cell import Cell
 from holdfast.clearance.contacts import Contact
 from holdfast.errors import HoldfastError
 from holdfast.failures import Degraded
@@ -25,6 +26,7 @@ Array = NDArray[np.float64]
 Ended = Literal["finished", "stopped", "moving", "unstable"]
 
 BEYOND = 1e-3  # rad or m past a limit of position that servos may take
+_HARDLY = 1e-3  # mm or deg
 FASTER = 0.01  # of a speed limit: servos may be so much above it
 
 
@@ -49,6 +51,7 @@ class Execution(Result):
         goal: (4, 4) or (3,) where the tool should be at the end, m, world; None if nothing was asked for.
         keep: What should be kept at every instant.
         contacts: First of each link with each object of the cell, in order of time; None without a cell.
+        cell: The objects around the arm; None without.
     """
 
     arm: Arm
@@ -67,6 +70,7 @@ class Execution(Result):
     goal: Array | None = None
     keep: tuple[Kept, ...] = ()
     contacts: tuple[Contact, ...] | None = None
+    cell: Cell | None = None
 
     @property
     def at(self) -> Array:
@@ -195,8 +199,8 @@ class Execution(Result):
         return lines + [fault for fault in self.faults() if "off the goal" not in fault and fault != _ENDS[self.outcome]]
 
     def _miss(self) -> str:
-        turned = "" if self.goal_turn is None else f" and {np.rad2deg(self.goal_turn):.3g} deg"
-        return f"{1000 * (self.goal_distance or 0.0):.3g} mm{turned}"
+        turned = "" if self.goal_turn is None else f" and {hardly(np.rad2deg(self.goal_turn))} deg"
+        return f"{hardly(1000 * (self.goal_distance or 0.0))} mm{turned}"
 
     def _unit(self, name: str) -> str:
         return self.arm.joints[self.arm.joint_index(name)].unit
@@ -209,6 +213,11 @@ class Execution(Result):
         """
         header = ["time_s", *joint_columns(self.arm), "tool_x_m", "tool_y_m", "tool_z_m"]
         return write_table(file, "motion", header, np.column_stack([self.time, self.q, self.poses[:, :3, 3]]))
+
+
+def hardly(value: float) -> str:
+    """A number of 0 or more; one too small to matter in mm or deg only as such."""
+    return f"{value:.3g}" if value >= _HARDLY or value == 0 else f"less than {_HARDLY:g}"
 
 
 _ENDS = {

@@ -121,6 +121,7 @@ def execute(
         goal=_goal(goal),
         keep=all_kept(keep, arm.forward_kinematics(way[0])),
         contacts=touches.contacts(),
+        cell=None if around is None else around.cell,
     )
 
 

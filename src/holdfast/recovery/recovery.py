@@ -290,7 +290,7 @@ class Recovery(Result):
             f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.solved and self.verified is not None else ""),
         ]
         lines += [f"kept all the way: {kept}" for kept in self.keep]
-        if self.reason:
+        if self.reason and self.reason != self.verdict.why:
             lines.append(self.reason)
         if len(self.q) and isinstance(self.clearance, Sharper):
             lines.append(f"by the bound this is not clear; it is by exact distances ({self.clearance.exact_by}), all the way")

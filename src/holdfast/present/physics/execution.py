@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.physics.execution import hardly
 from holdfast.present.clearance.contacts import contact_entries, contact_table
 from holdfast.present.printing import Rows, number
 from holdfast.present.story import Story
+from holdfast.words import capitalised
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,9 +53,9 @@ def tables(run: Execution) -> list[Rows]:
     """What was asked for beside what was measured, and what was touched."""
     rows = [["took, s", number(run.time[-1])]]
     if run.goal_distance is not None:
-        rows.append(["tool off the goal, mm", number(1000 * run.goal_distance, 3)])
+        rows.append(["tool off the goal, mm", hardly(1000 * run.goal_distance)])
     if run.goal_turn is not None:
-        rows.append(["turned away from it, deg", number(np.rad2deg(run.goal_turn), 3)])
+        rows.append(["turned away from it, deg", hardly(np.rad2deg(run.goal_turn))])
     for one, (off, turned) in zip(run.keep, run.kept, strict=True):
         rows += [[f"{one.name}: off at most, mm", number(1000 * off, 3)]] * bool(len(one.normals))
         if np.isfinite(one.widest):
@@ -91,7 +93,7 @@ def story(run: Execution) -> Story:
         answer += f": {' and '.join([*asked, 'the joints kept their limits'])}"
     facts = []
     if run.goal_distance is not None:
-        facts.append((f"{number(1000 * run.goal_distance, 3)} mm", "from the tool to its goal"))
+        facts.append((f"{hardly(1000 * run.goal_distance)} mm", "from the tool to its goal"))
     facts += [
         (
             f"{number(np.rad2deg(turned), 3)} deg",
@@ -105,7 +107,7 @@ def story(run: Execution) -> Story:
         f"{answer}.",
         about=first,
         facts=[x for x in facts if x[0][:2] != "0 "],
-        lines=[f"{line[0].upper()}{line[1:]}." for line in others],
+        lines=[f"{line if line.split()[0] in run.arm.joint_names else capitalised(line)}." for line in others],
         views=_moving(run),
         figures={"execution": ("Over time", "What was asked of the tool, and how far the joints lag behind their references.")},
         method=[("Simulated", f"{number(run.time[-1])} s, MuJoCo, {run.servos.describe()}")],
@@ -128,6 +130,7 @@ def _moving(run: Execution) -> list[tuple[str, list[Any]]]:
         readings=[f"{t:.2f} s" for t in run.time[rows]],
         locked=locks,
         targets=goals,
+        cell=run.cell,
     )
     return [("The motion", [Picture(shown.html("motion", words), words)])]
 

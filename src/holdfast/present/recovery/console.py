@@ -225,7 +225,7 @@ def _view(recovery: Recovery) -> list[tuple[str, list[Any]]]:
 
 def _timing(timed: TimedMotion) -> str:
     moving = np.flatnonzero(timed.accelerations)
-    limits = ", ".join(f"{number(timed.accelerations[k])} {timed.arm.joints[k].unit}/s²" for k in moving)
+    limits = ", ".join(dict.fromkeys(f"{number(timed.accelerations[k])} {timed.arm.joints[k].unit}/s²" for k in moving))
     return (
         f"as fast as the speed limits and accelerations of {limits} allow, corners rounded where that is proved, by parabolas; "
         f"rows every {number(timed.period)} s"
