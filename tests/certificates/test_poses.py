@@ -119,7 +119,7 @@ def test_every_pose_has_a_configuration(panda, turning, locked, rng, tmp_path):
     assert ("Rz(yaw) Ry(pitch) Rx(roll)" in check.claim) == turning
     model, tool = oracles.to_pinocchio(panda)
     data = model.createData()
-    for _ in range(3):
+    for _ in range(2):
         at = claim.box[:, 0] + rng.uniform(-0.2, 1.2, len(claim.box)).clip(0, 1) * np.diff(claim.box)[:, 0]
         roll, pitch, yaw = at[3:] if turning else (0, 0, 0)
         wanted = Rotation.from_euler("ZYX", [yaw, pitch, roll]).as_matrix() if turning else tip[:3, :3]

@@ -37,8 +37,9 @@ def test_a_tolerant_box(cli, tmp_path, monkeypatch):
     words = ["certify", "tolerant", "planar-3r", "--box", "1.5 0.5", "--size", "0.1", "--out", str(tmp_path / "box")]
     (tmp_path / "ranges.yaml").write_text("joint1: [-60, 30]\njoint2: [0, 80]\n")
     ranges = ["--ranges", str(tmp_path / "ranges.yaml"), "--range", "3=0..80", "--degrees"]
-    code, out, _ = cli(*words, *ranges, "--json")
+    code, out, _ = cli(*words, *ranges, "--json", "--plot", str(tmp_path / "a.png"))
     assert code == 0
+    assert (tmp_path / "a.png").stat().st_size > 5000
     assert {part["undecided"]["value"] for part in json.loads(out)["parts"].values()} == {0}
     code, out, _ = cli("certificate", "check", str(tmp_path / "box" / "tolerant.certificate"))
     assert code == 0

@@ -115,7 +115,7 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "Proof", "StationaryPoints", "TolerantProof"}
+WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "StationaryPoints"}
 WITHOUT_FIGURE |= {"ManipulabilityBound", "Refutation", "StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",

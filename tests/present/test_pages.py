@@ -28,10 +28,8 @@ PARTS = {
     "ManipulabilityBound",
     "CertificateCheck",
     "Configurations",
-    "Proof",
     "Refutation",
     "StructuralZero",
-    "TolerantProof",
     "WaypointCheck",
 }  # of a result, without a command that writes their page
 NAMES = [e.name for kind in (Ending, Outcome, Reason, Status) for e in kind if "_" in e.name or e.name in ("HOME", "CONVERGED")]

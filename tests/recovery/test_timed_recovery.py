@@ -19,6 +19,7 @@ from holdfast.clearance import Capsules
 from holdfast.keep.manifold import Manifold
 from holdfast.recovery import check_waypoints, completion, read_times, read_waypoints
 from holdfast.recovery.space import Space
+from holdfast.recovery.timing.motion import timed_motion
 from holdfast.recovery.timing.profile import fastest
 from holdfast.recovery.timing.rounding import cuts_of, rounded
 
@@ -220,6 +221,32 @@ def test_rounded_corners_keep_clear(among_balls):
     assert timed.without == pytest.approx((np.abs(np.diff(bent.q, axis=0)) / 2.0).max(axis=1).sum())
     stop = fastest(fine_way(bent.q, np.zeros(len(bent.q))), np.full(3, 2.0), np.full(3, 4.0)).time[-1]
     assert timed.without < timed.duration < stop
+
+
+def test_two_close_waypoints_are_one_corner_where_that_is_free():
+    arm = hf.arms.load("planar-3r")
+    arm = replace(arm, joints=tuple(replace(j, velocity=2.0) for j in arm.joints))
+    bad = hf.Degraded(arm, speeds={"joint1": 1.0})
+    near = np.array([[0, 0, 0], [1.0, 0, 0], [1.02, 0.02, 0], [1.0, 1.0, 0]])
+    cell = hf.Cell([hf.cell.Sphere("far", 0.1, pose=[0, 0, 5.0])])
+
+    def timed(way, space):
+        return timed_motion(space, bad, way, accelerations=np.full(3, 4.0), period=0.01, without=None)
+
+    class Blocked(Space):
+        """No line but those of the way."""
+
+        def edges(self, a, b, away=None):
+            return super().edges(a, b, away) & (np.abs(b - a).max(axis=1) < 0.2)
+
+    free = np.ones(3, dtype=bool)
+    clearance = hf.Clearance(arm, Capsules.along(arm, 0.02), cell, itself=False)
+    one = timed(np.delete(near, 1, axis=0), Space(arm, free, clearance, 0.0, near[:1]))
+    both = timed(near, Space(arm, free, clearance, 0.0, near[:1]))
+    assert both.duration <= one.duration * (1 + 1e-9)
+    kept = timed(near, Blocked(arm, free, clearance, 0.0, near[:1]))
+    assert kept.duration > 1.2 * both.duration
+    np.testing.assert_array_equal(both.q[[0, -1]], near[[0, -1]])
 
 
 def test_the_file_keeps_speeds_and_accelerations(among_balls, tmp_path):

@@ -153,7 +153,7 @@ def certify(
     ready, parts = monotonic() + (end - monotonic()) / _BEGIN, list[_Part]()
     for left, part in zip(range(len(claims), 0, -1), claims, strict=True):
         now = monotonic()
-        parts.append(_Part(part, halvings, seed, now + (ready - now) / left))
+        parts.append(_Part(part, halvings, seed, now if stop() else now + (ready - now) / left))
 
     def tell() -> None:
         done = int(_FINE * sum(part.closed for part in parts))

@@ -17,6 +17,7 @@ from holdfast.cli.options import (
     FailuresOption,
     HoldOption,
     JsonOption,
+    PlotOption,
     SeedOption,
     TipOption,
     read_arm,
@@ -26,7 +27,7 @@ from holdfast.cli.options import (
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
-from holdfast.present.results import printed
+from holdfast.present.results import drawn, printed
 
 REJECTED, REFUTED = 1, 4  # exit codes
 BoxOption = Annotated[
@@ -101,6 +102,7 @@ def reach(
     hold: HoldOption = None,
     seed: SeedOption = 0,
     out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("reach.certificate"),
+    plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
@@ -119,7 +121,7 @@ def reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command("out-of-reach")
@@ -189,6 +191,7 @@ def tolerant(
     out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
         "certificates"
     ),
+    plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
@@ -208,7 +211,7 @@ def tolerant(
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -334,13 +337,13 @@ def structural_zero(
     printed(hf.check_certificate(file) if check else proof, json_, [file])
 
 
-def _proved(claim: Any, out: Path, check: bool, as_json: bool, **how: Any) -> None:
-    """Search, write, check, print."""
+def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
+    """Search, write, check, draw, print."""
     with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
         proof = hf.certify(claim, **how, progress=progress, stop=stop)
     file = proof.write(out)
     found = hf.check_certificate(file) if check and not stop() else None
-    printed(found or proof, as_json, [file])
+    printed(found or proof, as_json, [file, *drawn(proof, plot)])
     if stop():
         raise KeyboardInterrupt
     if found is not None and found.rejected:

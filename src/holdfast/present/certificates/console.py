@@ -12,7 +12,10 @@ from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.verifier import per_cent
+from holdfast.present import results
+from holdfast.present.certificates import slices
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
 
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | CertificateCheck
 
@@ -51,6 +54,11 @@ def _shares(found: Found) -> dict[str, Fraction]:
 
 def _lock(check: CertificateCheck) -> str:
     return check.locked or "healthy"
+
+
+def story(found: Found | StructuralZero) -> Story:
+    """What its page says."""
+    return slices.story(found) if isinstance(found, Proof | TolerantProof) else results.story(found)
 
 
 def next_steps(found: Found | StructuralZero, name: str) -> list[str]:

@@ -26,6 +26,7 @@ Flags = NDArray[np.bool_]
 OFF_PATH = 5e-4, np.deg2rad(0.25)  # m and rad: what a rounded corner may take off a tool path
 _SAME = 1e-12  # rad and m: waypoints this near are one
 _MOST = 1_000_000  # rows
+_CLOSE = 0.3  # of the shorter line beside two waypoints: nearer to each other than that, they are one corner, if that is free
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -119,6 +120,7 @@ def timed_motion(
     group = np.cumsum(new) - 1
     way, held, place = q[new], np.bincount(group, held) > 0, place[new]
     way[-1] = q[-1]
+    way, held, place = _joined(space, way, held | np.isfinite(place), held, place)
     near = np.isfinite(place)
 
     def allowed(chords: Corners) -> Flags:
@@ -143,6 +145,27 @@ def timed_motion(
         stops=int((cut[1:-1] == 0).sum()),
         place=columns[:, arm.n],
     )
+
+
+def _joined(space: Space, way: Array, stays: Flags, held: Flags, place: Array) -> tuple[Array, Flags, Array]:
+    """The way (K, n) with one waypoint for two close ones that need not stay: a line as short as theirs leaves little to round.
+
+    The first, the second or the middle of them, whichever is proved to be free and makes the shortest way.
+    """
+    k = 1
+    while k < len(way) - 2:
+        before, a, b, after = (way[i] for i in range(k - 1, k + 3))
+        beside = min(np.linalg.norm(a - before), np.linalg.norm(after - b))
+        if not stays[k : k + 2].any() and np.linalg.norm(b - a) < _CLOSE * beside:
+            tried = np.stack([a, b, (a + b) / 2])
+            free = space.edges(np.tile(before, (3, 1)), tried) & space.edges(tried, np.tile(after, (3, 1)))
+            length = np.linalg.norm(tried - before, axis=1) + np.linalg.norm(after - tried, axis=1)
+            if free.any():
+                way = np.insert(np.delete(way, [k, k + 1], axis=0), k, tried[np.where(free, length, np.inf).argmin()], axis=0)
+                stays, held, place = np.delete(stays, k), np.delete(held, k), np.delete(place, k)
+                continue
+        k += 1
+    return way, held, place
 
 
 def _sampled(
