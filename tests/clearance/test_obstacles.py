@@ -127,7 +127,7 @@ def test_a_changed_cell_compiles_nothing(rng, scene):
 
 
 def test_one_row_after_the_other_has_the_same_bits(rng):
-    arm = oracles.random_arm(rng, types="RPR", limits=2.0)  # few joints: this code is compiled on level 1
+    arm = oracles.random_arm(rng, types="RPR", limits=2.0, base=False)  # few joints: this code is compiled on level 1
     q = rng.uniform(arm.lower, arm.upper, (30, arm.n))
     clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))
     rooms, slopes = clearance.nearest(q)
