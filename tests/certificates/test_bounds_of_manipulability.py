@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import copy
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -55,7 +58,7 @@ def test_boxes_of_a_panda(panda, tmp_path, rng, degrees, greatest, times, most):
     assert check.accepted == check.leaves
     assert check.undecided == 0
     assert greatest - 1e-4 < proof.value <= claim.threshold
-    values = kept(panda, rng.uniform(*claim.joint_box.T, (20_000, 7))).min(axis=1)
+    values = kept(panda, rng.uniform(*claim.joint_box.T, (4000, 7))).min(axis=1)
     assert values.max() <= proof.value
     np.testing.assert_allclose(kept(panda, proof.extreme[None]).min(), proof.value, atol=1e-9)
     assert f"{np.floor(proof.value * 1e6) / 1e6:.6f} occurs" in check.said
@@ -113,9 +116,7 @@ def test_a_planar_arm_of_which_two_joints_may_lock(flat4, tmp_path, rng):
     assert checked(again, tmp_path).rejected == 0
 
 
-@pytest.mark.parametrize(
-    ("degrees", "threshold", "most"), [(2, 0.02, 6924), (6, 0.003, 12_300), (6, 0.0074, 27_800), (6, 0.0134, 248_000)]
-)
+@pytest.mark.parametrize(("degrees", "threshold", "most"), [(2, 0.02, 6924), (6, 0.003, 12_300), (6, 0.0134, 248_000)])
 def test_floors_of_a_panda(panda, tmp_path, rng, degrees, threshold, most):
     """Those of the specification, with the leaves that its search took; the lowest value that was found occurs."""
     middle, half = np.radians([40, 20, -30, -90, 30, 120, 0]), np.radians(degrees)
@@ -127,7 +128,7 @@ def test_floors_of_a_panda(panda, tmp_path, rng, degrees, threshold, most):
     assert check.rejected == 0
     assert check.accepted == check.leaves
     assert "is at least" in check.claim
-    values = kept(panda, rng.uniform(*claim.joint_box.T, (20_000, 7))).min(axis=1)
+    values = kept(panda, rng.uniform(*claim.joint_box.T, (4000, 7))).min(axis=1)
     assert threshold <= proof.value <= values.min()
 
 
@@ -140,6 +141,18 @@ def test_an_arm_with_two_redundant_joints(rng, tmp_path):
         proof = hf.certify(claim(arm, box, bound), halvings=4)
         assert proof.undecided < 1
         assert checked(proof, tmp_path).rejected == 0
+
+
+def test_the_verifier_needs_nothing_of_holdfast(fine, tmp_path):
+    """The file alone, in a process in which an import of holdfast fails."""
+    file, alone = written.stored(fine, tmp_path / "a.certificate"), tmp_path / "verifier.py"
+    alone.write_bytes(Path(verifier.__file__).read_bytes())
+    script = (
+        "import sys, runpy; sys.modules['holdfast'] = None; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='__main__')"
+    )
+    done = subprocess.run([sys.executable, "-c", script, alone, file], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "0.0668" in done.stdout
 
 
 def test_a_floor_above_what_occurs_is_refuted(panda, tmp_path):
