@@ -194,7 +194,7 @@ _CLASSES = (
         "Objective",
         "Parameter",
         "Places",
-        "CeilingClaim",
+        "BoundClaim",
         "OutOfReachClaim",
         "ReachClaim",
         "Region",

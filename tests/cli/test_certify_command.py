@@ -108,7 +108,7 @@ def test_a_ceiling(cli, tmp_path):
         *words, "--within", "5", "--limit", "2=-50..-40", "--below", "0.07", "--halvings", "0", "--no-check", "--json"
     )
     assert code == 3
-    assert len(json.loads(out)["best"]) == 7
+    assert len(json.loads(out)["extreme"]) == 7
 
 
 def test_a_structural_zero(cli, tmp_path):
@@ -119,3 +119,25 @@ def test_a_structural_zero(cli, tmp_path):
     code, out, _ = cli(*words, "panda", "panda_joint4", "--json")
     assert code == 3
     assert json.loads(out)["proved"] is False
+
+
+def test_a_floor(cli, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = [
+        "certify",
+        "floor",
+        "panda",
+        "--around",
+        "40 20 -30 -90 30 120 0",
+        "--within",
+        "2",
+        "--degrees",
+        "--out",
+        str(file),
+    ]
+    code, out, _ = cli(*words, "--above", "0.02", "--json")
+    assert code == 0
+    assert json.loads(out)["undecided"]["value"] == 0
+    code, out, _ = cli(*words, "--above", "0.03")
+    assert code == 4
+    assert "Refuted: 0.02" in out

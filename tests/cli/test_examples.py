@@ -63,6 +63,7 @@ QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "fr
 QUICK |= {
     "certify reach",
     "certify ceiling",
+    "certify floor",
     "certify structural-zero",
     "certify out-of-reach",
     "certify tolerant",

@@ -34,7 +34,7 @@ RESULTS = named(
         "FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
         "Workspace",
         "bench": "FailActive",
-        "certificates": "Ceiling CertificateCheck Refutation Proof StructuralZero TolerantProof",
+        "certificates": "ManipulabilityBound CertificateCheck Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
@@ -78,7 +78,7 @@ INPUTS = named(
         "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "bench": "Case",
-        "certificates": "CeilingClaim OutOfReachClaim ReachClaim StructuralZeroClaim TolerantClaim",
+        "certificates": "BoundClaim OutOfReachClaim ReachClaim StructuralZeroClaim TolerantClaim",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
         "control": "Law",

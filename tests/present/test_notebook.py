@@ -77,7 +77,7 @@ MADE = {
     "Arm": arm,
     "Assessment": lambda: assessed(),
     "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
-    "Ceiling": found(lambda: hf.certify(hf.certificates.ceiling_claim(four(), FOUR, 0.4, task="planar-pose"))),
+    "ManipulabilityBound": found(lambda: hf.certify(hf.certificates.ceiling_claim(four(), FOUR, 0.4, task="planar-pose"))),
     "CellCheck": found(lambda: hf.check_cell(hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), arm())),
     "CertificateCheck": lambda: hf.check_certificate(proof().write(Path(mkdtemp()) / "a.certificate")),
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
@@ -116,7 +116,7 @@ MADE = {
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
 WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "StationaryPoints"}
-WITHOUT_FIGURE |= {"Ceiling", "Refutation", "StructuralZero", "WaypointCheck"}
+WITHOUT_FIGURE |= {"ManipulabilityBound", "Refutation", "StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

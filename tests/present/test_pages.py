@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 PARTS = {
-    "Ceiling",
+    "ManipulabilityBound",
     "CertificateCheck",
     "Configurations",
     "Refutation",

@@ -12,14 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
+from holdfast.failures.sets import FailureSpec, single_joints
 
 Array = NDArray[np.float64]
 
 ROWS = {"planar": 2, "position": 3, "pose": 6}
 _TASKS = {2: "planar", 3: "position"}  # by coordinates of a target
 _SKEWED = 1e-6  # of a rotation: so much is mended
-_SIX = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,13 +100,13 @@ def reach_claim(
     box, task, turned = _targets(arm, centre, size, rotation, rpy)
     kept = np.column_stack([arm.lower, arm.upper])
     for joint, pair in (limits or {}).items():
-        kept[arm.joint_index(joint)] = _within(arm, joint, pair)
+        kept[arm.joint_index(joint)] = within(arm, joint, pair)
     which, angle = -1, None
     if locked is not None:
         if len(locked) != 1:
             raise InputError(f"{len(locked)} joints are given as locked; a certificate is about one, or none")
         ((joint, pair),) = locked.items()
-        which, angle = arm.joint_index(joint), _within(arm, joint, pair)
+        which, angle = arm.joint_index(joint), within(arm, joint, pair)
         if angle[0] < kept[which, 0] or angle[1] > kept[which, 1]:
             raise InputError(
                 f"{arm.joint_names[which]} may lock beyond the limits that are given for it; widen these, or leave them out"
@@ -151,7 +150,7 @@ def tolerant_claim(
     box, task, turned = _targets(arm, centre, size, rotation, rpy)
     ranges = np.column_stack([arm.lower, arm.upper])
     for joint, pair in (working_ranges or {}).items():
-        ranges[arm.joint_index(joint)] = _within(arm, joint, pair)
+        ranges[arm.joint_index(joint)] = within(arm, joint, pair)
     locks = tuple(sorted(single_joints(arm, failures)))
     for k in locks:
         if not np.isfinite(ranges[k]).all():
@@ -199,7 +198,7 @@ def _need_joints(arm: Arm, locked: int, rows: int) -> None:
         raise InputError(f"{arm.n - locked} joints are left for {rows} rows: no box can be reached")
 
 
-def _within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:
+def within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:
     """An interval of a joint, in its limits."""
     k = arm.joint_index(joint)
     found = np.asarray(pair, dtype=np.float64).reshape(-1)
@@ -249,134 +248,22 @@ def out_of_reach_claim(
         InputError: A box, joint, angle or limit that makes no claim, an arm with slides, or two coordinates for an arm that
             does not move in a plane.
     """
-    _need_turning(arm)
+    need_turning(arm)
     same = reach_claim(arm, centre, size, locked=locked, limits=limits)
     if same.task == "planar":
-        _need_flat(arm, "a box of two coordinates is")
+        need_flat(arm, "a box of two coordinates is")
     return OutOfReachClaim(arm=arm, task=same.task, box=same.box, locked=same.locked, angle=same.angle, limits=same.limits)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CeilingClaim:
-    """For every configuration of a box, the least relative manipulability after one of some locks is at most a threshold.
-
-    Attributes:
-        arm: The arm, all of whose joints turn.
-        task: ``pose``, or ``planar-pose``.
-        joint_box: (n, 2) rad.
-        threshold: Between 0 and 1.
-        locks: Indices of the joints that may lock, one at a time, in order.
-    """
-
-    arm: Arm
-    task: str
-    joint_box: Array
-    threshold: float
-    locks: tuple[int, ...]
-
-
-@checked
-def ceiling_claim(
-    arm: Arm,
-    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
-    threshold: float,
-    *,
-    failures: FailureSpec = "single",
-    task: str = "pose",
-) -> CeilingClaim:
-    """The claim that nowhere in a box of configurations relative manipulability is above a threshold.
-
-    Args:
-        arm: The arm; all of its joints must turn.
-        joint_box: (n, 2) rad, lowest and highest value of each joint; or ``{joint: (low, high)}``, of a joint that is not named
-            its limits.
-        threshold: Between 0 and 1.
-        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
-        task: ``pose``; ``planar-pose`` for an arm that moves in a plane.
-
-    Raises:
-        InputError: A box or threshold that makes no claim, a threshold that no configuration exceeds, another task, or an arm
-            with slides.
-        TaskError: An arm without redundancy, no failures, or failures of several joints at once.
-
-    Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
-    """
-    if task not in _SIX:
-        raise InputError(f"task is '{task}'; ceilings are for {' and '.join(_SIX)}, whose rows are all of the motion")
-    _need_turning(arm)
-    locks = tuple(sorted(single_joints(arm, failures)))
-    require_redundant(arm, _SIX[task], task, tuple((k,) for k in locks))
-    if task == "planar-pose":
-        _need_flat(arm, "task planar-pose is")
-    if isinstance(joint_box, Mapping):
-        box = np.column_stack([arm.lower, arm.upper])
-        for joint, pair in joint_box.items():
-            box[arm.joint_index(joint)] = _within(arm, joint, pair)
-    else:
-        pairs = np.asarray(joint_box, dtype=np.float64)
-        if pairs.shape != (arm.n, 2):
-            raise InputError(f"the box must be two angles for each of {arm.n} joints, rad, not an array of {pairs.shape}")
-        box = np.array([_within(arm, k, pair) for k, pair in enumerate(pairs)])
-    if not np.isfinite(box).all():
-        k = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
-        raise InputError(f"{arm.joint_names[k]} has no limits; give its range")
-    # The squares of all relative manipulabilities sum to n - m, so the least of some is at most their mean.
-    most = float(np.sqrt(min(1.0, (arm.n - _SIX[task]) / len(locks))))
-    if not 1e-6 <= threshold < 1:
-        raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
-    if threshold >= most:
-        raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: nothing to prove")
-    return CeilingClaim(arm=arm, task=task, joint_box=box, threshold=float(threshold), locks=locks)
-
-
-@dataclass(frozen=True, kw_only=True)
-class StructuralZeroClaim:
-    """Wherever the arm is, a lock of one joint costs all relative manipulability of the pose: axes say so, not angles.
-
-    Attributes:
-        arm: The arm, all of whose joints turn.
-        locked: Index of the joint.
-        tolerance: m, by which its geometry may miss exact ones.
-    """
-
-    arm: Arm
-    locked: int
-    tolerance: float
-
-    @property
-    def task(self) -> str:
-        """All six rows."""
-        return "pose"
-
-
-@checked
-def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5) -> StructuralZeroClaim:
-    """The claim that the axes before a joint meet in one point, and those behind it in another: that its lock costs everything.
-
-    Args:
-        arm: The arm; all of its joints must turn.
-        joint: Between others, by name or index from 0.
-        tolerance: m, by which the frames of the file may miss those of an arm of which it is true exactly.
-
-    Raises:
-        InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
-    """
-    _need_turning(arm)
-    which = arm.joint_index(joint)
-    if not 1 <= which <= arm.n - 2:
-        raise InputError(f"{arm.joint_names[which]} is not between other joints, and only these can have a structural zero")
-    if not 0 <= tolerance <= 1e-3:
-        raise InputError(f"tolerance is {tolerance}; it must be from 0 to 0.001 m")
-    return StructuralZeroClaim(arm=arm, locked=which, tolerance=float(tolerance))
-
-
-def _need_flat(arm: Arm, what: str) -> None:
+def need_flat(arm: Arm, what: str) -> None:
+    """Refuse an arm whose axes are not all parallel to z; ``what`` is asked of it."""
     turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
     if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):
         raise InputError(f"{what} for arms that move in the xy plane, and this one leaves it")
 
 
-def _need_turning(arm: Arm) -> None:
+def need_turning(arm: Arm) -> None:
+    """Refuse an arm with a joint that slides."""
     if arm.prismatic.any():
         slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
         raise InputError(f"{slides[0]} slides; certificates are for arms whose joints all turn")

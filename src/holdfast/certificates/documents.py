@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import CeilingClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
+from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
+from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
 
@@ -88,9 +89,9 @@ def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> D
     )
 
 
-def ceiling(claim: CeilingClaim, tree: Halving, best: NDArray[np.float64], *, seconds: float) -> Document:
-    """The certificate of a ceiling, with the best configuration that was found."""
-    common = _common("ceiling", claim, seconds, tree.tested)
+def bound(claim: BoundClaim, tree: Halving, extreme: NDArray[np.float64], *, seconds: float) -> Document:
+    """The certificate of a ceiling or a floor, with the configuration that was found to come nearest to it."""
+    common = _common(claim.kind, claim, seconds, tree.tested)
     return _signed(
         common
         | {
@@ -98,7 +99,7 @@ def ceiling(claim: CeilingClaim, tree: Halving, best: NDArray[np.float64], *, se
             "threshold": _hexes(claim.threshold),
             "locks": list(claim.locks),
             "tree": _packed(tree.in_order()),
-            "best": _hexes(best),
+            "found": _hexes(extreme),
             "volumes": _volumes(tree.undecided),
         }
     )
@@ -123,7 +124,7 @@ def undecided(document: Document) -> list[verifier.Cell]:
 
 def _common(
     kind: str,
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim | StructuralZeroClaim,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim,
     seconds: float,
     nodes: int,
 ) -> Document:
@@ -139,7 +140,7 @@ def _common(
         "seconds": seconds,
         "nodes": nodes,
     }
-    if isinstance(claim, CeilingClaim | StructuralZeroClaim):
+    if isinstance(claim, BoundClaim | StructuralZeroClaim):
         return made
     return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
 

@@ -37,7 +37,7 @@ class Pool:
         until: When to stop (``monotonic``), with what there is.
 
     Attributes:
-        q: (N, n) rad.
+        q: (N, n) rad or m, those of the first targets.
         cells: That the whole would take, estimated; infinite where nobody knows.
     """
 
@@ -45,31 +45,34 @@ class Pool:
         self._reach, self._root, self._rng = reach, root, rng
         self._width = root[:, 1] - root[:, 0]
         self._unit = np.where(self._width > 0, self._width, 1.0)
-        self.q, self._at, self._count = np.empty((0, reach.n)), np.empty((0, len(root))), 0
-        self._grow(until)
-        self.cells, targets = self._estimate(), _TARGETS
-        while targets < min(_MOST, self.cells / _EACH) and monotonic() < until:
-            self._grow(until)
-            targets += _TARGETS
-        self._all, self._added = self.q[:0], [(self._at / self._unit, self.q)]
+        self._all, self._count, self._until = np.empty((0, reach.n)), 0, until
+        self._added: list[tuple[Array, Array]] = []
+        self.q, self._at = self._grown()
+        self.cells = self._estimate()
 
-    def _grow(self, until: float) -> None:
-        """By configurations of some targets more, where one is found."""
+    def enlarge(self) -> None:
+        """As large as the claim asks; an estimate does without."""
+        for _ in range(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1):
+            self._grown()
+
+    def _grown(self) -> tuple[Array, Array]:
+        """Configurations of some targets more, where one is found, and these; added, too."""
         reach = self._reach
         drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
-        at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < until else 0]
+        at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < self._until else 0]
         low, high = reach.spans.T
         q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
         q = reach.solved(q, at[:, : reach.axes], 40)
         met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
-        self.q = np.concatenate([self.q, self._climbed(q[met], at[met, : reach.axes], until)])
-        self._at = np.concatenate([self._at, at[met]])
+        q, at = self._climbed(q[met], at[met, : reach.axes]), at[met]
+        self.add(at, q)
+        return q, at
 
-    def _climbed(self, q: Array, targets: Array, until: float) -> Array:
+    def _climbed(self, q: Array, targets: Array) -> Array:
         """Moved along self-motions to where configurations prove more."""
         q, half, best = q.copy(), np.tile(self._width / _TYPICAL, (len(q), 1)), np.full(len(q), -1.0)
         for k in range(1 + _CLIMB * self._reach.redundant):
-            if monotonic() > until:
+            if monotonic() > self._until:
                 break
             other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
             size = Form.at(self._reach, other, targets).scale(half)

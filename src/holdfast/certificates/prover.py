@@ -11,9 +11,10 @@ import numpy as np
 
 from holdfast.arguments import checked
 from holdfast.certificates import documents, structure, verifier
-from holdfast.certificates.claims import ROWS, CeilingClaim, OutOfReachClaim, ReachClaim, StructuralZeroClaim, TolerantClaim
-from holdfast.certificates.joint_boxes.ceilings import Ceiling, bounded
+from holdfast.certificates.claims import ROWS, OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, bounded
 from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
+from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.search import Search
 from holdfast.certificates.structure import StructuralZero
@@ -93,30 +94,31 @@ def certify(claim: TolerantClaim, **how: Unpack[How]) -> TolerantProof: ...
 @overload
 def certify(claim: OutOfReachClaim, **how: Unpack[How]) -> Refutation: ...
 @overload
-def certify(claim: CeilingClaim, **how: Unpack[How]) -> Ceiling: ...
+def certify(claim: BoundClaim, **how: Unpack[How]) -> ManipulabilityBound: ...
 @overload
 def certify(claim: StructuralZeroClaim, **how: Unpack[How]) -> StructuralZero: ...
 @checked
 @says("searching for a proof")
 def certify(
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | CeilingClaim | StructuralZeroClaim,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim,
     *,
     halvings: int | None = None,
     time_limit: float | None = None,
     seed: int = 0,
     progress: Progress | None = None,
     stop: Stop = lambda: False,
-) -> Proof | TolerantProof | Refutation | Ceiling | StructuralZero:
+) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero:
     """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
 
     That nothing of a box is reached is proved by halving the box of configurations with that of the targets, until distances
     tell each of them apart; or refuted by a configuration that is found in it. A ceiling of relative manipulability is proved
-    by a wrench for each part of the box of configurations. A structural zero needs no search: axes meet, or they do not.
+    by a wrench for each part of the box of configurations, a floor by a motion. A structural zero needs no search: axes meet,
+    or they do not.
 
     Args:
         claim: From :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
-            :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim` or
-            :func:`holdfast.certificates.structural_zero_claim`.
+            :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim`,
+            :func:`holdfast.certificates.floor_claim` or :func:`holdfast.certificates.structural_zero_claim`.
         halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16.
         time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
             one does not need the others get. Without it the same seed gives the same certificate.
@@ -126,8 +128,8 @@ def certify(
 
     Returns:
         A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
-        what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling a
-        :class:`holdfast.certificates.Ceiling`, of a structural zero a
+        what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling or floor a
+        :class:`holdfast.certificates.ManipulabilityBound`, of a structural zero a
         :class:`holdfast.certificates.StructuralZero`; found by the prover and not yet verified. Its file is
         checked by :func:`check_certificate`, or without holdfast; see the explanation of certificates.
 
@@ -135,7 +137,7 @@ def certify(
         InputError: A number out of range, or a box that would take more than 2^24 cells.
     """
     if halvings is None:
-        halvings = 16 if isinstance(claim, OutOfReachClaim | CeilingClaim) else 8
+        halvings = 16 if isinstance(claim, OutOfReachClaim | BoundClaim) else 8
     if not 0 <= halvings <= 20:
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
@@ -145,7 +147,7 @@ def certify(
         return refuted(claim, halvings, seed, end, stop, progress)
     if isinstance(claim, StructuralZeroClaim):
         return structure.proved(claim)
-    if isinstance(claim, CeilingClaim):
+    if isinstance(claim, BoundClaim):
         return bounded(claim, halvings, seed, end, stop, progress)
     claims = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
     ready, parts = monotonic() + (end - monotonic()) / _BEGIN, list[_Part]()

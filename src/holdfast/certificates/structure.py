@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.claims import StructuralZeroClaim
+from holdfast.certificates.joint_claims import StructuralZeroClaim
 from holdfast.certificates.proof import written
 from holdfast.certificates.taylor import Chain
 from holdfast.errors import InputError

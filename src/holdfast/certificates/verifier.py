@@ -12,6 +12,8 @@ Distances are bounded by exact derivatives at the centre, in arrays of balls, an
 A ceiling of relative manipulability is a tree over joints. With the moments a_l of any wrench about the axes, it is at most
 sqrt(A / (A + a_k^2)) after a lock of joint k, A the sum of the other a_l^2. In each leaf a wrench that is affine in the joints
 shows this, and one k. As its axes are seen from a link in the middle of the arm, first and last joint count nothing.
+A floor has a motion x of the joints in each leaf, x = nu + N (q - q_c) + P s, and for some s the tool is still (Brouwer again):
+after a lock of joint k at least |x_k| / |x| is left.
 
 A structural zero holds where all axes before a joint meet in one point, and all behind it in another: a force along the line
 through both has no moment about any other axis, so A = 0 (or the arm is singular). It is checked in rationals.
@@ -57,7 +59,8 @@ UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted,
 LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
 LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere
 UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
-SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [0, 1, 5]}  # rows of a ceiling
+SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [0, 1, 5]}  # rows of a ceiling or floor, positions first
+ROWS_OF_SCREWS = {6: [0, 1, 2, 3, 4, 5], 3: [2, 3, 4]}  # the same, axes first
 ROWS = {"planar xy": 2, "position xyz": 3, "pose xyz": 6, "pose xyzRPY": 6}  # by task and axes of the target
 NUMBER, TEXT, HASH = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
 WHOLE, RATIONAL = r"-?\d{1,40}", r"-?\d{1,60}/[1-9]\d{0,60}"
@@ -65,7 +68,7 @@ LIMITS, FRAME = [f"{NUMBER}|-?inf", 2], {"rotation": [NUMBER, 9], "origin": [NUM
 ARM = {"joints": [{"name": TEXT, "type": "revolute|prismatic", "limits": LIMITS, **FRAME}, ...], "tool": FRAME}
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
 VOLUMES = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-KINDS = "reach|bundle|refutation|ceiling|structural-zero"
+KINDS = "reach|bundle|refutation|ceiling|floor|structural-zero"
 COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KINDS, "arm": ARM}
 COMMON |= {"arm_digest": HASH, "source": ..., "claim": TEXT, "task": TEXT, "volumes": VOLUMES, "digest": HASH, **FOR_PEOPLE}
 real = float.fromhex
@@ -123,9 +126,12 @@ def sentence(document: dict[str, Any]) -> str:
         near = "{} rad and {} m".format(*(f"{_two_digits(Fraction(x), True):g}" if x else "0" for x in snap(document)))
         text = f"For every configuration of an arm whose frames are within {near} of the file's, relative manipulability of the"
         return f"{text} pose after a lock of {names[document['locked']]} is 0; arm {document['arm_digest'][:12]}."
-    if document["kind"] == "ceiling":
+    if document["kind"] in ("ceiling", "floor"):
         least = f"the least relative manipulability of the {document['task']} after a lock of one of "
-        least += f"{', '.join(names[k] for k in document['locks'])} is at most {real(document['threshold'])!r}"
+        least += (
+            f"{', '.join(names[k] for k in document['locks'])} is at {'most' if document['kind'] == 'ceiling' else 'least'} "
+        )
+        least += repr(real(document["threshold"]))
         text = f"For every configuration with {spans(names, document['joint_box'])}, {least}"
         return f"{text}; angles in rad, arm {document['arm_digest'][:12]}."
     target = document["target"]
@@ -179,10 +185,10 @@ def _check(document: dict[str, Any]) -> None:
     need(1 <= n <= MOST_JOINTS and len(set(names)) == n, f"there must be 1 to {MOST_JOINTS} joints of different names")
     need(all(x.isprintable() and x and len(x) <= 200 for x in names), "joints must have names of 1 to 200 letters to print")
     turning = all(joint["type"] == "revolute" for joint in joints)
-    if document["kind"] == "ceiling":
-        need(turning and document["task"] in SIX, f"ceilings are of joints that turn, and of {' and '.join(SIX)}")
+    if document["kind"] in ("ceiling", "floor"):
+        need(turning and document["task"] in SIX, f"ceilings and floors are of joints that turn, and of {' and '.join(SIX)}")
         _fit(document, {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "locks": [range(n), ...], "tree": TEXT,
-                        "best": [NUMBER, n], **COMMON}, "the certificate")  # fmt: skip
+                        "found": [NUMBER, n], **COMMON}, "the certificate")  # fmt: skip
         _within(document["joint_box"], [joint["limits"] for joint in joints], "joint_box")
         need(1e-6 <= real(document["threshold"]) < 1, "threshold must be from 1e-6 to 1")
     elif document["kind"] == "structural-zero":
@@ -194,7 +200,7 @@ def _check(document: dict[str, Any]) -> None:
     else:
         _check_targets(document, joints, target, locks, axes, turning)
     need(
-        document["kind"] not in ("bundle", "ceiling") or (locks and locks == sorted(set(locks))),
+        document["kind"] not in ("bundle", "ceiling", "floor") or (locks and locks == sorted(set(locks))),
         "locks must be in order, each once",
     )
     for key, value in (("arm_digest", digest(document["arm"])), ("claim", sentence(document)), ("digest", digest(document))):
@@ -529,8 +535,8 @@ class Balls:
 
 
 def times(form: str, a: Balls, b: Balls) -> Balls:
-    """A product of arrays, as of ``einsum``, whose sums have at most 15 terms: each is off by less than 16 roundings."""
-    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-48 * abs(a.at), abs(b.at))))
+    """A product of arrays, as of ``einsum``, whose sums have at most 64 terms: each is off by less than 65 roundings."""
+    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-46 * abs(a.at), abs(b.at))))
     return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
 
 
@@ -547,6 +553,11 @@ def crossed(a: Balls) -> Balls:
 def length(x: Array, axis: int = 1) -> Array:
     """Above the lengths of vectors."""
     return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
+
+
+def joined(a: Balls, b: Balls) -> Balls:
+    """Along the last axis."""
+    return Balls(np.concatenate([a.at, b.at], -1), np.concatenate([a.off, b.off], -1))
 
 
 def stacked(parts: list[Balls], axis: int) -> Balls:
@@ -732,48 +743,50 @@ class Apart(Boxes):
 
 
 class Wrenches(Boxes):
-    """The leaves of a ceiling of relative manipulability."""
+    """The leaves of a ceiling of relative manipulability; each has a joint whose lock costs enough."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         self._given = document | {"tree": ""}
         ends = [[real(x) for x in pair] for pair in document["joint_box"]]
         super().__init__(document["arm"], ends, document["task"] == "planar-pose")
-        self.most, self.rows, self.locks = real(document["threshold"]), SIX[document["task"]], document["locks"]
+        self.threshold, self.rows, self.locks = real(document["threshold"]), SIX[document["task"]], document["locks"]
         line, column = np.indices(
             (self.n, self.n)
         )  # joint j moves axis l, seen from link n/2: one way behind it, the other before
         self.middle = self.n // 2
         behind, before = (column >= self.middle) & (column < line), (column < self.middle) & (column > line)
-        self.sign = 1.0 * behind - 1.0 * before
+        self.sign, self.side = 1.0 * behind - 1.0 * before, np.where(np.arange(self.n) >= self.middle, 1.0, -1.0)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Wrenches, (self._given,)
+        return type(self), (self._given,)
 
-    def screws(self, joints: list[Array]) -> tuple[Balls, Balls, Array, Array]:
-        """Axes, moments of these about a point on the middle one, and distances: from axis to axis, and to the point."""
-        _, z, places, _ = self.moved(0, self.origins[-1], joints)
+    def screws(self, joints: list[Array]) -> tuple[Balls, Balls, Balls, Array, Array]:
+        """Axes, moments of these about a point on the middle one, brackets, distances from axis to axis and to the point."""
+        tip, z, places, _ = self.moved(0, self.origins[-1], joints)
         path = [places[:, k] for k in range(self.n)]
-        links, order = np.zeros((len(places.at), self.n)), [*range(self.middle + 1, self.n), *range(self.middle - 1, -1, -1)]
-        for j in order:  # any point of an axis will do: one that is near the one before
-            last = path[j - 1 if j > self.middle else j + 1]
+        links, order = np.zeros((len(places.at), self.n)), [*range(self.middle, self.n), *range(self.middle - 1, -1, -1)]
+        for j in order:  # any point of an axis will do: one that is near the one before, of the middle axis near the tool
+            last = tip if j == self.middle else path[j - 1 if j > self.middle else j + 1]
             along = np.nan_to_num(((last.at - path[j].at) * z.at[:, j]).sum(axis=1))
             path[j] += times("n,na->na", Balls(along), z[:, j])
             links[:, j] = length((path[j] + -last).size)
         away = stacked(path, 1) + -path[self.middle][:, None]
-        return z, times("nlij,nlj->nli", crossed(away), z), links, length(away.size, 2)
+        v = times("nlij,nlj->nli", crossed(away), z)
+        # The derivative of screw l by joint j is the bracket of screws j and l, and so on with joints nearer the middle.
+        shifted = times("njab,nlb->njla", crossed(z), v) + times("njab,nlb->njla", crossed(v), z)
+        return z, v, joined(times("njab,nlb->njla", crossed(z), z), shifted), links, length(away.size, 2)
 
-    def third(self, y: Array, turn: Array, links: Array, away: Array, half: Array) -> Array:
-        """Above what is left of the moments behind first and second order."""
+    def remains(self, links: Array, away: Array, half: Array) -> list[Array]:
+        """Above what is left of axes and of moments behind first order, and behind second: (leaves, n) each."""
         c, v = half @ abs(self.sign).T, np.zeros((3, *links.shape))
         for j in range(self.n):
             between = slice(self.middle, j) if j > self.middle else slice(j + 1, self.middle)
             for r in range(3 if j not in (self.middle, self.middle - 1) else 0):
                 carried = slice(j, self.n) if j > self.middle else slice(0, j + 1)
                 v[r, :, carried] += (links[:, j] * half[:, between].sum(axis=1) ** (r + 1))[:, None]
-        far, (moment, force) = away + v[0], (length(x)[:, None] for x in (y[:, :3], y[:, 3:]))
-        more = [(length(x) * half).sum(axis=1)[:, None] for x in (turn[:, :3], turn[:, 3:])]
-        first = force * (v[2] + 3 * v[1] * c + 3 * v[0] * c**2 + far * c**3) + moment * c**3
-        return np.asarray((first / 6 + (more[1] * (v[1] + 2 * v[0] * c + far * c**2) + more[0] * c**2) / 2) * UP + LEAST)
+        far = away + v[0]
+        second, third = v[1] + 2 * v[0] * c + far * c**2, v[2] + 3 * v[1] * c + 3 * v[0] * c**2 + far * c**3
+        return [x * UP + LEAST for x in (c**2 / 2, second / 2, c**3 / 6, third / 6)]
 
     def wrench(self, own: Array, others: Array, moved: Array, half: Array, k: int) -> tuple[Array, Array]:
         """Any wrench y (leaves, 6), and how it follows the joints (leaves, 6, n): such that other moments hardly change."""
@@ -791,13 +804,8 @@ class Wrenches(Boxes):
         """Of leaves: whether a lock of joint k costs enough."""
         joints = [self.middles(j, (cell[j] for cell in parts)) for j in range(self.n)]
         half = np.stack([joint[:, 2] for joint in joints], 1)
-        z, v, links, away = self.screws(joints)
-        screws = Balls(np.concatenate([z.at, v.at], 2), np.concatenate([z.off, v.off], 2))
-        # The derivative of screw l by joint j is the bracket of screws j and l, and so on with joints nearer the middle.
-        turned, shifted = times("njab,nlb->njla", crossed(z), z), times("njab,nlb->njla", crossed(z), v)
-        shifted += times("njab,nlb->njla", crossed(v), z)
-        bracket = Balls(np.concatenate([turned.at, shifted.at], 3), np.concatenate([turned.off, shifted.off], 3))
-        sign = self.sign[:, :, None]
+        z, v, bracket, links, away = self.screws(joints)
+        screws, sign = joined(z, v), self.sign[:, :, None]
         moved = Balls(bracket.at.transpose(0, 2, 1, 3) * sign, bracket.off.transpose(0, 2, 1, 3) * abs(sign))
         y, turn = self.wrench(screws.at[:, k], np.delete(screws.at, k, axis=1), moved.at, half, k)
         wrench, turning = Balls(y), Balls(turn)
@@ -805,8 +813,7 @@ class Wrenches(Boxes):
         force, moment = Balls(y[:, 3:]), Balls(y[:, :3])
         down = -(times("nlab,nb->nla", crossed(z), moment) + times("nlab,nb->nla", crossed(v), force))
         right = -times("nlab,nb->nla", crossed(z), force)
-        pulled = Balls(np.concatenate([down.at, right.at], 2), np.concatenate([down.off, right.off], 2))
-        twice = times("nia,njla->nlij", pulled, bracket)
+        twice = times("nia,njla->nlij", joined(down, right), bracket)
         mask = abs(self.sign[:, :, None] * self.sign[:, None])
         inner = np.arange(self.n)[:, None, None] >= self.middle  # behind the middle the nearer joint has the lower number
         twice = Balls(*(mask * np.where(inner, x, x.transpose(0, 1, 3, 2)) for x in (twice.at, twice.off)))
@@ -814,10 +821,12 @@ class Wrenches(Boxes):
         pairs = np.triu((twice + cross + Balls(cross.at.transpose(0, 1, 3, 2), cross.off.transpose(0, 1, 3, 2))).size, 1)
         own = (Balls(twice.at / 2, twice.off / 2) + cross).size * np.eye(self.n)
         rest = (slope.size * half[:, None]).sum(axis=2) + np.einsum("ni,nlij,nj->nl", half, pairs + own, half)
-        rest = (rest + self.third(y, turn, links, away, half)) * UP
+        more = [(length(x) * half).sum(axis=1) for x in (turn[:, :3], turn[:, 3:])]
+        sizes = [x[:, None] for x in (*more, length(y[:, :3]), length(y[:, 3:]))]
+        rest = (rest + sum(x * left for x, left in zip(sizes, self.remains(links, away, half), strict=True))) * UP
         moments = times("nla,na->nl", screws, wrench)
         others, least = (moments.size + rest) * UP, np.maximum(np.nextafter(moments.low - rest, -np.inf)[:, k], 0)
-        others[:, k], c = 0, self.most
+        others[:, k], c = 0, self.threshold
         high, low = (others**2).sum(axis=1) * ((1 - c) * (1 + c)) * UP, c**2 * least**2 * (1 - 1e-12)
         return np.asarray((high < low) & (least > 1e-100))
 
@@ -830,20 +839,93 @@ class Wrenches(Boxes):
                 bad += [cell for cell, good in zip(parts, self.costs(k, parts), strict=True) if not good]
         return len(chunk), bad
 
-    def occurs(self, q: list[str]) -> float:
-        """Below the least relative manipulability at a configuration: its square is 1 - J_k' (JJ')^-1 J_k."""
+    def occurs(self, q: list[str]) -> tuple[float, float]:
+        """Around the least relative manipulability at a configuration: its square is 1 - J_k' (JJ')^-1 J_k."""
         tip, z, places, _ = self.moved(0, self.origins[-1], self.at(q))
         made = columns(tip, z, places)
         values, errors = (np.concatenate([x[0], y[0]], 1).T[self.rows] for x, y in ((made.at, z.at), (made.off, z.off)))
-        jacobian = flint.arb_mat(
-            *values.shape, [flint.arb(float(x), float(e)) for x, e in zip(values.flat, errors.flat, strict=True)]
-        )
+        entries = [flint.arb(float(x), float(e)) for x, e in zip(values.flat, errors.flat, strict=True)]
+        jacobian = flint.arb_mat(*values.shape, entries)
         try:
             solved = (jacobian * jacobian.transpose()).solve(jacobian)
         except ZeroDivisionError:
-            return 0.0
+            return 0.0, 1.0
         kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
-        return min(math.sqrt(max(0.0, math.nextafter(float(x.lower()), -math.inf))) * (1 - 1e-15) for x in kept)
+        low, high = ([-_above(-x) for x in kept], [_above(x) for x in kept])
+        return math.sqrt(max(0.0, min(low))) * (1 - 1e-15), math.sqrt(max(0.0, min(high))) * (1 + 1e-15)
+
+
+class Motions(Wrenches):
+    """The leaves of a floor; each has a motion that keeps the tool where it is."""
+
+    def costs(self, k: int, parts: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves: whether all locks leave enough."""
+        joints = [self.middles(j, (cell[j] for cell in parts)) for j in range(self.n)]
+        half, rows = np.stack([joint[:, 2] for joint in joints], 1), ROWS_OF_SCREWS[len(self.rows)]
+        z, v, bracket, links, away = self.screws(joints)
+        screws = joined(z, v)[:, :, rows]
+        beyond = abs(self.sign).T[:, :, None]
+        given = half, z, v, screws, Balls(bracket.at * beyond, bracket.off * beyond), self.remains(links, away, half)
+        jacobian = np.nan_to_num(screws.at.transpose(0, 2, 1))
+        inverse = np.nan_to_num(np.linalg.pinv(jacobian))
+        if self.n - len(rows) == 1:
+            return self.leaves_enough(np.linalg.svd(jacobian)[2][:, -1], inverse, self.locks, *given)
+        onto = np.eye(self.n) - inverse @ jacobian
+        return np.asarray(np.all([self.leaves_enough(onto[:, :, k], inverse, [k], *given) for k in self.locks], axis=0))
+
+    def leaves_enough(
+        self,
+        nu: Array,
+        inverse: Array,
+        locks: list[int],
+        half: Array,
+        z: Balls,
+        v: Balls,
+        screws: Balls,
+        moved: Balls,
+        left: Any,
+    ) -> NDArray[np.bool_]:
+        """Whether some x = nu + N (q - q_c) + P s keeps the tool still all over the leaf, and its parts are large enough."""
+        rows, nu = ROWS_OF_SCREWS[len(self.rows)], np.nan_to_num(nu / length(nu)[:, None])
+        second, third = (np.stack([a] * 3 + [b] * 3, axis=2)[:, :, rows] for a, b in (left[:2], left[2:]))
+        u, side = times("njlb,nl->njb", moved, Balls(nu)), self.side[:, None]
+        slope = Balls(u.at * side, u.off)[:, :, rows]
+        follow = np.nan_to_num(-np.einsum("nlb,njb->nlj", inverse, slope.at))
+        slope += times("nlb,nlj->njb", screws, Balls(follow))
+        turned, shifted = times("niab,njb->nija", crossed(z), u[:, :, :3]), times("niab,njb->nija", crossed(z), u[:, :, 3:])
+        twice = joined(turned, shifted + times("niab,njb->nija", crossed(v), u[:, :, :3]))
+        i, j = np.indices((self.n, self.n))  # i nearer the middle than j, or j itself
+        nearer = (self.side[:, None] == self.side) & (np.where(self.side > 0, j - i, i - j) >= 0)
+        twice = Balls(twice.at * nearer[:, :, None], twice.off * nearer[:, :, None])
+        cross = times("njlb,nli->njib", moved, Balls(follow))
+        cross = Balls(cross.at * side[:, :, None], cross.off)
+        own = Balls(twice.at / 2, twice.off / 2) + cross
+        swap = [Balls(x.at.transpose(0, 2, 1, 3), x.off.transpose(0, 2, 1, 3)) for x in (twice, cross)]
+        pairs = (twice + swap[0] + cross + swap[1]).size * np.triu(np.ones((self.n, self.n)), 1)[:, :, None]
+        bend = (pairs + own.size * np.eye(self.n)[:, :, None])[..., rows]
+        off = times("nlb,nl->nb", screws, Balls(nu)).size + np.einsum("njb,nj->nb", slope.size, half)
+        off += np.einsum("nijb,ni,nj->nb", bend, half, half) + np.einsum("nl,nlb->nb", abs(nu), third)
+        far = np.einsum("nlj,nj->nl", abs(follow), half) * UP
+        off = (off + np.einsum("nl,nlb->nb", far, second)) * UP + LEAST
+        whole = times("nlb,nlc->nbc", screws, Balls(inverse)) + Balls(
+            -np.broadcast_to(np.eye(len(rows)), (len(nu),) + (len(rows),) * 2)
+        )
+        miss = whole.size + np.einsum("njbc,nj->nbc", times("njlb,nlc->njbc", moved[..., rows], Balls(inverse)).size, half)
+        miss = (miss + np.einsum("nlb,nlc->nbc", second, abs(inverse))) * UP + LEAST
+        s = off
+        for _ in range(12):
+            s = 1.02 * (off + np.einsum("nbc,nc->nb", miss, s)) + 1e-15
+        # s -> s - J x sends its box into itself; and as miss s < s, J P has an inverse everywhere: nothing is singular.
+        closed = ((off + np.einsum("nbc,nc->nb", miss, s)) * UP < s).all(axis=1) & (s < 1e3).all(axis=1)
+        shift = np.einsum("nlb,nb->nl", abs(inverse), s) * UP
+        long = (
+            (nu**2).sum(axis=1)
+            + 2 * (times("nl,nlj->nj", Balls(nu), Balls(follow)).size * half).sum(axis=1)
+            + (far**2).sum(axis=1)
+        )
+        long = (np.sqrt(long * UP) + length(shift)) * UP
+        least = np.nextafter(abs(nu) - (far + shift) * UP, -np.inf)[:, locks].min(axis=1)
+        return np.asarray(closed & (least > 1e-100) & (least > self.threshold * long * UP))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -859,7 +941,7 @@ class Verdict:
     shadow: frozenset[Cell]  # cells of targets for which something is undecided
     parts: tuple[Verdict, ...] = ()
     refuted: bool = False  # a configuration shows that the claim is false
-    occurs: float = 0.0  # of a ceiling: a value that is attained, or less
+    occurs: float = 0.0  # of a ceiling: a value that is attained, or less; of a floor, or more
 
     @property
     def sampled(self) -> bool:
@@ -878,15 +960,16 @@ class Verdict:
         if self.document.get("witness"):
             at = ", ".join(repr(real(x)) for x in self.document["witness"])
             return f"Refuted: at ({at}) the tool is in the box." if self.refuted else text
-        if self.document["kind"] == "ceiling":
-            at = ", ".join(repr(real(x)) for x in self.document["best"])
-            best = f"{math.floor(self.occurs * 1e6) / 1e6:.6f} occurs, at ({at})"
+        if self.document["kind"] in ("ceiling", "floor"):
+            at = ", ".join(repr(real(x)) for x in self.document["found"])
+            rounded = math.floor if self.document["kind"] == "ceiling" else math.ceil
+            best = f"{rounded(self.occurs * 1e6) / 1e6:.6f} occurs, at ({at})"
             if self.refuted:
                 return f"Refuted: {best}."
         text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
         text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
         text += " in the worst part" * bool(self.parts)
-        if self.document["kind"] == "ceiling":
+        if self.document["kind"] in ("ceiling", "floor"):
             text += f" of the box; {best}"
         elif self.document["kind"] != "structural-zero" and self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
@@ -953,25 +1036,28 @@ def _refutation(document: dict[str, Any], sample: int | None, workers: int, tell
     )  # fmt: skip
 
 
-def _ceiling(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
-    began, leaves = time.perf_counter(), Wrenches(document)
+def _bound(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    """A ceiling or a floor."""
+    began, ceiling = time.perf_counter(), document["kind"] == "ceiling"
+    leaves = Wrenches(document) if ceiling else Motions(document)
     with flint.ctx.workprec(64), np.errstate(all="ignore"):
-        inside = all(real(a) <= real(x) <= real(b) for x, (a, b) in zip(document["best"], document["joint_box"], strict=True))
-        need(inside, "the best configuration is outside of the box")
-        occurs = leaves.occurs(document["best"])
-    tree = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree")
-    undecided = [cell for token, cell in cells(tree, leaves.n, 2, LOCK) if token < LOCK]
-    locks = {LOCK + k for k in document["locks"]}
-    need(all(token < LOCK or token in locks for token in set(tree)), "a leaf names a joint that is not among the locks")
+        inside = all(real(a) <= real(x) <= real(b) for x, (a, b) in zip(document["found"], document["joint_box"], strict=True))
+        need(inside, "the configuration that was found is outside of the box")
+        low, high = leaves.occurs(document["found"])
+    tree, good = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree"), {0}
+    if ceiling:
+        good = {LOCK + k for k in document["locks"]}
+    need(set(tree) <= good | {2, *range(SPLIT, SPLIT + leaves.n)}, "a token of the tree is unknown, or not among the locks")
+    undecided = [cell for token, cell in cells(tree, leaves.n, 2, LOCK) if token == 2]
     _agree(document, volume(undecided))
-    count = sum(tree.count(token) for token in locks)
+    proofs = ((cell, max(token - LOCK, 0)) for token, cell in cells(tree, leaves.n, 2, LOCK) if token != 2)
+    count = sum(tree.count(token) for token in good)
     picked = _picked(count, sample)
-    proofs = ((cell, token - LOCK) for token, cell in cells(tree, leaves.n, 2, LOCK) if token >= LOCK)
     checked, rejected = _looked_at(leaves, (proof for i, proof in enumerate(proofs) if i in picked), workers, tell)
     return Verdict(
-        document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), occurs=occurs,
-        seconds=time.perf_counter() - began, undecided=volume(undecided) + volume(rejected),
-        refuted=occurs > leaves.most, shadow=frozenset(),
+        document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected),
+        occurs=low if ceiling else high, seconds=time.perf_counter() - began, undecided=volume(undecided) + volume(rejected),
+        refuted=low > leaves.threshold if ceiling else high < leaves.threshold, shadow=frozenset(),
     )  # fmt: skip
 
 
@@ -1010,9 +1096,13 @@ def verify(
     path, tell = Path(path), progress or (lambda size: None)
     document = load(path)
     if document["kind"] != "bundle":
-        return {"reach": _reach, "refutation": _refutation, "ceiling": _ceiling, "structural-zero": _structural_zero}[
-            document["kind"]
-        ](document, sample, workers, tell)
+        return {
+            "reach": _reach,
+            "refutation": _refutation,
+            "ceiling": _bound,
+            "floor": _bound,
+            "structural-zero": _structural_zero,
+        }[document["kind"]](document, sample, workers, tell)
     files, ranges = [load(path.parent / part["file"]) for part in document["parts"]], document["working_ranges"]
     same = {"kind": "reach"} | {key: document[key] for key in ("arm", "task", "target")}
     for part, file, locked in zip(document["parts"], files, [-1, *document["locks"]], strict=True):

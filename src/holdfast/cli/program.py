@@ -38,7 +38,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "follow": "before.follow",
     "endure": "before.endure",
     "certify": "before.certify",
-    "certificate": "before.certify:certificate",
+    "certificate": "before.certificate",
     "trade-off": "before.trade_off",
     "design": "before.design",
     "simulate": "unnoticed.simulate",

@@ -15,7 +15,7 @@ PRESENTERS = {
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "CellCheck": ("clearance.cell_check", ""),
-    "Ceiling": ("certificates.console", ""),
+    "ManipulabilityBound": ("certificates.console", ""),
     "CertificateCheck": ("certificates.console", ""),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),
     "Configurations": ("enclosure.console", ""),

@@ -51,6 +51,11 @@ class Segment:
 
     def frames(self, q: Array) -> tuple[Array, Array, Array]:
         """The point (N, 3), axes (N, k, 3) and derivatives of the point (N, k, 3) at q (N, k)."""
+        tip, axes, places = self.placed(q)
+        return tip, axes, np.cross(axes, tip[:, None] - places)
+
+    def placed(self, q: Array) -> tuple[Array, Array, Array]:
+        """The point (N, 3), axes (N, k, 3) and origins of the joints on these (N, k, 3) at q (N, k)."""
         count, joints = q.shape
         turn, tip = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
         axes, places = np.zeros((count, joints, 3)), np.zeros((count, joints, 3))
@@ -63,7 +68,7 @@ class Segment:
             c, s = cosines[:, k, None], sines[:, k, None]
             turn = np.stack([c * x + s * y, c * y - s * x, turn[:, :, 2]], axis=2)
         tip = tip + turn @ self.end
-        return tip, axes, np.cross(axes, tip[:, None] - places)
+        return tip, axes, places
 
     def on_axes(self, point: Array) -> int:
         """How many of the first joints have their axes through a point (3,): they do not change its distance."""

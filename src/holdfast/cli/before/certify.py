@@ -1,4 +1,4 @@
-"""``holdfast certify``: reach, tolerant, out-of-reach, ceiling, structural-zero. ``holdfast certificate``: check, show."""
+"""``holdfast certify``, with a command for each kind of claim."""
 
 from __future__ import annotations
 
@@ -9,6 +9,22 @@ import numpy as np
 import typer
 
 import holdfast as hf
+from holdfast.cli.certify_options import (
+    AnglesOption,
+    AroundOption,
+    BoxOption,
+    CheckOption,
+    HalvingsOption,
+    JointHalvingsOption,
+    LimitOption,
+    LockOption,
+    RotationOption,
+    RowsOption,
+    SizeOption,
+    TimeOption,
+    TurnsOption,
+    WithinOption,
+)
 from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import (
     NOT_MET,
@@ -30,52 +46,9 @@ from holdfast.failures.sets import read_failures
 from holdfast.present.results import drawn, printed
 
 REJECTED, REFUTED = 1, 4  # exit codes
-BoxOption = Annotated[
-    str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
-]
-SizeOption = Annotated[
-    str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
-]
-LockOption = Annotated[
-    str | None,
-    typer.Option("--lock", help="JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy.", show_default=False),
-]
-LimitOption = Annotated[
-    list[str] | None,
-    typer.Option("--limit", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again.", show_default=False),
-]
-RotationOption = Annotated[
-    str | None,
-    typer.Option(
-        "--rotation",
-        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll). Default: it may be any.",
-        show_default=False,
-    ),
-]
-TurnsOption = Annotated[
-    str | None,
-    typer.Option(
-        "--rotation-size",
-        help="Edges of a box of roll, pitch and yaw around --rotation, rad: one number, or three. Default: none.",
-        show_default=False,
-    ),
-]
-AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees (slides stay in m).")]
-HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
-TimeOption = Annotated[
-    float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
-]
-CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
-
 command = typer.Typer(
     name="certify",
     help="Prove that an arm reaches every target of a box, and write a certificate.",
-    no_args_is_help=True,
-)
-certificate = typer.Typer(
-    name="certificate",
-    help="Check certificates, by code that shares nothing with what made them.",
     no_args_is_help=True,
 )
 
@@ -214,19 +187,13 @@ def tolerant(
 def ceiling(
     arm: ArmArgument,
     below: Annotated[float, typer.Option("--below", help="Threshold, between 0 and 1.", show_default=False)],
-    around: Annotated[
-        str | None,
-        typer.Option("--around", help="Middle of the box: a value of each joint, rad. Default: limits.", show_default=False),
-    ] = None,
-    within: Annotated[
-        str | None,
-        typer.Option("--within", help="Half widths of it, rad: one number, or one for each joint.", show_default=False),
-    ] = None,
+    around: AroundOption = None,
+    within: WithinOption = None,
     limit: LimitOption = None,
-    task: Annotated[str, typer.Option("--task", help="pose; planar-pose for arms in a plane.")] = "pose",
+    task: RowsOption = "pose",
     degrees: AnglesOption = False,
     failures: FailuresOption = "single",
-    halvings: Annotated[int, typer.Option("--halvings", help="Of each joint, at most.")] = 16,
+    halvings: JointHalvingsOption = 16,
     time_limit: TimeOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
@@ -245,25 +212,71 @@ def ceiling(
     Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
     """
     model = read_arm(arm, base, tip, hold)
-    box: dict[str | int, tuple[float, float]] = {}
-    if (around is None) != (within is None):
-        raise InputError("--around and --within go together: the middle of the box and its half widths")
-    if around is not None and within is not None:
-        middle = read_numbers("--around", around, f"{model.n} numbers,")
-        half = read_numbers("--within", within, f"one number, or {model.n},")
-        if len(middle) != model.n or len(half) not in (1, model.n):
-            raise InputError(f"--around needs {model.n} numbers, and --within one or {model.n}")
-        pairs = zip(model.joint_names, middle, [*half] * (model.n // len(half)), strict=True)
-        texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
-        box = _intervals(model, "--around", texts, degrees)
     claim = hf.certificates.ceiling_claim(
         model,
-        box | _intervals(model, "--limit", limit or [], degrees),
+        _box_of(model, around, within, limit, degrees),
         below,
         failures=read_failures(model, failures),
         task=task,
     )
     _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+@command.command()
+def floor(
+    arm: ArmArgument,
+    above: Annotated[float, typer.Option("--above", help="Threshold, between 0 and 1.", show_default=False)],
+    around: AroundOption = None,
+    within: WithinOption = None,
+    limit: LimitOption = None,
+    task: RowsOption = "pose",
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: JointHalvingsOption = 16,
+    time_limit: TimeOption = None,
+    check: CheckOption = True,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    seed: SeedOption = 0,
+    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("floor.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that relative manipulability is nowhere in a box of configurations below a threshold, and that none is singular.
+
+    The worst configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something
+    is undecided, 4 if that configuration is below the threshold, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far.
+
+    Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
+    """
+    model = read_arm(arm, base, tip, hold)
+    claim = hf.certificates.floor_claim(
+        model,
+        _box_of(model, around, within, limit, degrees),
+        above,
+        failures=read_failures(model, failures),
+        task=task,
+    )
+    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+def _box_of(
+    arm: hf.Arm, around: str | None, within: str | None, limit: list[str] | None, degrees: bool
+) -> dict[str | int, tuple[float, float]]:
+    """A box of configurations: some angles around a middle, or within limits."""
+    box: dict[str | int, tuple[float, float]] = {}
+    if (around is None) != (within is None):
+        raise InputError("--around and --within go together: the middle of the box and its half widths")
+    if around is not None and within is not None:
+        middle = read_numbers("--around", around, f"{arm.n} numbers,")
+        half = read_numbers("--within", within, f"one number, or {arm.n},")
+        if len(middle) != arm.n or len(half) not in (1, arm.n):
+            raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+        pairs = zip(arm.joint_names, middle, [*half] * (arm.n // len(half)), strict=True)
+        texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
+        box = _intervals(arm, "--around", texts, degrees)
+    return box | _intervals(arm, "--limit", limit or [], degrees)
 
 
 @command.command("structural-zero")
@@ -304,48 +317,10 @@ def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None
         raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation | hf.certificates.Ceiling) and proof.refuted:
+    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
         raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)
-
-
-@certificate.command()
-def check(
-    file: FileArgument,
-    sample: Annotated[
-        int | None, typer.Option("--sample", help="Only so many cells, drawn at random.", show_default=False)
-    ] = None,
-    workers: Annotated[int, typer.Option("--workers", help="Processes.")] = 1,
-    json_: JsonOption = False,
-) -> None:
-    """Check a certificate: every cell again, in ball arithmetic.
-
-    The exit code is 1 if a cell is rejected.
-
-    Example: holdfast certificate check reach.certificate
-    """
-    found = hf.check_certificate(file, sample=sample, workers=workers)
-    printed(found, json_)
-    if found.rejected:
-        raise typer.Exit(REJECTED)
-
-
-@certificate.command()
-def show(file: FileArgument) -> None:
-    """Show what a certificate claims, without checking the proof.
-
-    Example: holdfast certificate show reach.certificate
-    """
-    from holdfast.certificates import verifier
-
-    try:
-        document = verifier.load(file)
-    except verifier.Refused as error:
-        raise InputError(str(error)) from error
-    volumes = document["volumes"]
-    typer.echo(document["claim"])
-    typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
 
 
 def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from holdfast.certificates.checks import CertificateCheck
-from holdfast.certificates.joint_boxes.ceilings import Ceiling
+from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
@@ -17,7 +17,7 @@ from holdfast.present.certificates import slices
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
 
-Found = Proof | TolerantProof | Refutation | Ceiling | CertificateCheck
+Found = Proof | TolerantProof | Refutation | ManipulabilityBound | CertificateCheck
 
 
 def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
@@ -38,8 +38,8 @@ def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
         counts |= {"nodes": found.nodes, "finished": found.finished, "verified": False}
     if isinstance(found, Refutation):
         witness = {"witness": None if found.witness is None else found.witness.tolist()}
-    if isinstance(found, Ceiling):
-        witness = {"best": found.best.tolist(), "value": found.value}
+    if isinstance(found, ManipulabilityBound):
+        witness = {"extreme": found.extreme.tolist(), "value": found.value}
     written = {key: {"value": float(part), "fraction": _text(part)} for key, part in shares.items()}
     said = {"claim": claim, **written, **counts, **witness, "seconds": found.seconds}
     return said | ({"parts": {name: to_dict(part) for name, part in parts.items()}} if parts else {})
@@ -67,8 +67,8 @@ def next_steps(found: Found | StructuralZero, name: str) -> list[str]:
         return [f'hf.check_certificate({name}.write("reach.certificate"))  # by other code']
     if isinstance(found, StructuralZero):
         return [f'hf.check_certificate({name}.write("zero.certificate"))  # by other code']
-    if isinstance(found, Ceiling):
-        return [f'hf.check_certificate({name}.write("ceiling.certificate"))  # by other code']
+    if isinstance(found, ManipulabilityBound):
+        return [f'hf.check_certificate({name}.write("bound.certificate"))  # by other code']
     if isinstance(found, Refutation):
         return [f'hf.check_certificate({name}.write("out-of-reach.certificate"))  # by other code']
     if isinstance(found, TolerantProof):

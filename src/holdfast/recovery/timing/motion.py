@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,7 @@ Flags = NDArray[np.bool_]
 OFF_PATH = 5e-4, np.deg2rad(0.25)  # m and rad: what a rounded corner may take off a tool path
 _SAME = 1e-12  # rad and m: waypoints this near are one
 _MOST = 1_000_000  # rows
-_CLOSE = 0.3  # of the shorter line beside two waypoints: nearer to each other than that, they are one corner, if that is free
+_CLOSE = 1.0  # of the shorter line beside two waypoints: those nearer to each other than that are tried as one
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -110,7 +111,6 @@ def timed_motion(
     Raises:
         InputError: There would be more than a million rows.
     """
-    arm = space.arm
     place = np.full(len(q), np.nan)
     if along is not None:
         place[along[1]] = along[0]
@@ -120,19 +120,17 @@ def timed_motion(
     group = np.cumsum(new) - 1
     way, held, place = q[new], np.bincount(group, held) > 0, place[new]
     way[-1] = q[-1]
-    way, held, place = _joined(space, way, held | np.isfinite(place), held, place)
-    near = np.isfinite(place)
-
-    def allowed(chords: Corners) -> Flags:
-        good = space.edges(chords.first, chords.last, chords.away)
-        some = np.flatnonzero(good & near[chords.corner])
-        if some.size:
-            good[some] = _near(arm, chords.last[some], chords.cut[some])
-        return good
-
-    cut = np.zeros(len(way)) if cautious else cuts_of(way, held, allowed)
+    ways = [(way, held, place)]
+    if not cautious:
+        joined = _joined(space, way, held | np.isfinite(place), held, place)
+        ways += [joined] * (len(joined[0]) < len(way))
     speeds = np.where(degraded.v > 0, degraded.v, np.inf)
-    columns, rates, seconds, duration = _sampled(way, cut, place, speeds, accelerations, period)
+    found = []
+    for way, held, place in ways:
+        cut = np.zeros(len(way)) if cautious else cuts_of(way, held, partial(_allowed, space, np.isfinite(place)))
+        found.append((*_sampled(way, cut, place, speeds, accelerations, period), int((cut[1:-1] == 0).sum())))
+    columns, rates, seconds, duration, stops = min(found, key=lambda made: made[3])
+    arm = space.arm
     return TimedMotion(
         arm=degraded.arm,
         time=np.arange(len(columns), dtype=np.float64) * period,
@@ -142,26 +140,37 @@ def timed_motion(
         accelerations=accelerations,
         duration=duration,
         without=without,
-        stops=int((cut[1:-1] == 0).sum()),
+        stops=stops,
         place=columns[:, arm.n],
     )
 
 
-def _joined(space: Space, way: Array, stays: Flags, held: Flags, place: Array) -> tuple[Array, Flags, Array]:
-    """The way (K, n) with one waypoint for two close ones that need not stay: a line as short as theirs leaves little to round.
+def _allowed(space: Space, near: Flags, chords: Corners) -> Flags:
+    """Which chords are free, and where waypoints are on a tool path (K,) hardly off it."""
+    good = space.edges(chords.first, chords.last, chords.away)
+    some = np.flatnonzero(good & near[chords.corner])
+    if some.size:
+        good[some] = _near(space.arm, chords.last[some], chords.cut[some])
+    return good
 
-    The first, the second or the middle of them, whichever is proved to be free and makes the shortest way.
+
+def _joined(space: Space, way: Array, stays: Flags, held: Flags, place: Array) -> tuple[Array, Flags, Array]:
+    """The way (K, n) with one waypoint for two close ones that need not stay, as a short line leaves little to round.
+
+    It is where the lines beside them come nearest to each other, drawn on, or in the middle of the two: if the new lines are
+    proved to be free.
     """
     k = 1
     while k < len(way) - 2:
         before, a, b, after = (way[i] for i in range(k - 1, k + 3))
-        beside = min(np.linalg.norm(a - before), np.linalg.norm(after - b))
-        if not stays[k : k + 2].any() and np.linalg.norm(b - a) < _CLOSE * beside:
-            tried = np.stack([a, b, (a + b) / 2])
-            free = space.edges(np.tile(before, (3, 1)), tried) & space.edges(tried, np.tile(after, (3, 1)))
-            length = np.linalg.norm(tried - before, axis=1) + np.linalg.norm(after - tried, axis=1)
+        towards, onwards = a - before, after - b
+        if not stays[k : k + 2].any() and np.linalg.norm(b - a) < _CLOSE * min(map(np.linalg.norm, (towards, onwards))):
+            s, t = np.linalg.lstsq(np.stack([towards, onwards], axis=1), b - a)[0]
+            tried = np.stack([(a + s * towards + b - t * onwards) / 2, (a + b) / 2])
+            free = space.edges(np.tile(before, (2, 1)), tried) & space.edges(tried, np.tile(after, (2, 1)))
+            free[0] &= s > -1 and t > -1
             if free.any():
-                way = np.insert(np.delete(way, [k, k + 1], axis=0), k, tried[np.where(free, length, np.inf).argmin()], axis=0)
+                way = np.insert(np.delete(way, [k, k + 1], axis=0), k, tried[free.argmax()], axis=0)
                 stays, held, place = np.delete(stays, k), np.delete(held, k), np.delete(place, k)
                 continue
         k += 1

@@ -1,4 +1,4 @@
-"""Ceilings of relative manipulability, against null spaces at random configurations, and forgers."""
+"""Ceilings and floors of relative manipulability, against null spaces at random configurations, and forgers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import written
 
 import holdfast as hf
 import oracles
-from holdfast.certificates import ceiling_claim, documents, verifier
+from holdfast.certificates import ceiling_claim, documents, floor_claim, verifier
+from holdfast.certificates.joint_boxes.kernels import Floor
 from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.taylor import Chain
 from holdfast.errors import InputError, TaskError
@@ -56,25 +57,27 @@ def test_boxes_of_a_panda(panda, tmp_path, rng, degrees, greatest, times, most):
     assert greatest - 1e-4 < proof.value <= claim.threshold
     values = kept(panda, rng.uniform(*claim.joint_box.T, (20_000, 7))).min(axis=1)
     assert values.max() <= proof.value
-    np.testing.assert_allclose(kept(panda, proof.best[None]).min(), proof.value, atol=1e-9)
+    np.testing.assert_allclose(kept(panda, proof.extreme[None]).min(), proof.value, atol=1e-9)
     assert f"{np.floor(proof.value * 1e6) / 1e6:.6f} occurs" in check.said
 
 
 @pytest.mark.parametrize("kind", ["RRRRRRR", "RRRRRRRR", "planar"])
 def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
     """The search's, and leaves that the verifier accepts, at random points of random boxes of random arms."""
-    sharp = 0.0
-    for _ in range(3):
+    sharp, floors = 0.0, 0
+    for _ in range(2):
         arm, rows = (flat4, [0, 1, 5]) if kind == "planar" else (oracles.random_arm(rng, types=kind, limits=2.5), slice(None))
-        n, chain, half = arm.n, Chain.of(arm), 10 ** rng.uniform(-3, -0.8, (12, arm.n))
+        n, chain, half = arm.n, Chain.of(arm), 10 ** rng.uniform(-3, -0.8, (8, arm.n))
         if kind == "planar":
             chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
         middle = rng.uniform(-2, 2, half.shape)
         steps = rng.choice([-1.0, 1.0, 0.3], (40, *half.shape))
-        true = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 12, n).max(axis=0)
+        true = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).max(axis=0)
         test = Ceiling(chain, tuple(range(n)), 0.5)
-        thresholds = rng.uniform(0.3, 1.0, 12) * np.sqrt((n - 6 if n > 6 else 1) / n)
-        for k in range(12):
+        least = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).min(axis=(0, 2))
+        below = Floor(chain, [2, 3, 4] if kind == "planar" else [*range(6)], tuple(range(n)), 0.5)
+        thresholds = rng.uniform(0.3, 1.0, 8) * np.sqrt((n - 6 if n > 6 else 1) / n)
+        for k in range(8):
             box = np.column_stack([middle[k] - half[k], middle[k] + half[k]])
             test.slope = thresholds[k] / np.sqrt(1 - thresholds[k] ** 2)
             token = int(test(middle[[k]], half[[k]])[0][0])
@@ -87,9 +90,15 @@ def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
             accepted = [j for j in range(n) if not leaves.rejected([(cell, j)])[1]]
             assert token < 0 or token - 128 in accepted
             assert all(true[k, j] <= thresholds[k] for j in accepted)
+            floor = verifier.Motions(document | {"threshold": (low := thresholds[k] / 10).hex()})
+            enough, below.threshold = not floor.rejected([(cell, 0)])[1], low
+            assert not enough or least[k] >= low
+            assert below(middle[[k]], half[[k]])[0][0] < 0 or enough
+            floors += enough
             if accepted:
                 sharp = max(sharp, true[k, accepted].min() / thresholds[k])
     assert sharp > 0.6
+    assert floors > 0
 
 
 def test_a_planar_arm_of_which_two_joints_may_lock(flat4, tmp_path, rng):
@@ -102,6 +111,48 @@ def test_a_planar_arm_of_which_two_joints_may_lock(flat4, tmp_path, rng):
     again = hf.certify(ceiling_claim(flat4, box, proof.value * 1.02, failures=["joint2", 3], task="planar-pose"))
     assert again.ok
     assert checked(again, tmp_path).rejected == 0
+
+
+@pytest.mark.parametrize(
+    ("degrees", "threshold", "most"), [(2, 0.02, 6924), (6, 0.003, 12_300), (6, 0.0074, 27_800), (6, 0.0134, 248_000)]
+)
+def test_floors_of_a_panda(panda, tmp_path, rng, degrees, threshold, most):
+    """Those of the specification, with the leaves that its search took; the lowest value that was found occurs."""
+    middle, half = np.radians([40, 20, -30, -90, 30, 120, 0]), np.radians(degrees)
+    claim = floor_claim(panda, np.column_stack([middle - half, middle + half]), threshold)
+    proof = hf.certify(claim)
+    assert proof.ok
+    assert proof.leaves < most / 30
+    check = checked(proof, tmp_path)
+    assert check.rejected == 0
+    assert check.accepted == check.leaves
+    assert "is at least" in check.claim
+    values = kept(panda, rng.uniform(*claim.joint_box.T, (20_000, 7))).min(axis=1)
+    assert threshold <= proof.value <= values.min()
+
+
+def test_an_arm_with_two_redundant_joints(rng, tmp_path):
+    """Of eight joints, six rows: another motion for each lock."""
+    arm, middle = oracles.random_arm(rng, types="RRRRRRRR", limits=2.5), rng.uniform(-1, 1, 8)
+    box = np.column_stack([middle - 0.01, middle + 0.01])
+    values = kept(arm, rng.uniform(*box.T, (5000, 8))).min(axis=1)
+    for claim, bound in ((floor_claim, values.min() * 0.8), (ceiling_claim, values.max() * 1.2)):
+        proof = hf.certify(claim(arm, box, bound), halvings=4)
+        assert proof.undecided < 1
+        assert checked(proof, tmp_path).rejected == 0
+
+
+def test_a_floor_above_what_occurs_is_refuted(panda, tmp_path):
+    proof = hf.certify(floor_claim(panda, box_around(panda, 5), 0.05))
+    assert proof.refuted
+    assert "Refuted: 0.0" in checked(proof, tmp_path).said
+
+
+def test_no_floor_where_the_arm_is_singular(panda):
+    """Stretched: whatever the threshold, the box around it is never whole."""
+    box = np.array([[-0.1, 0.1], [-0.1, 0.1], [-0.1, 0.1], [-0.1, -0.0698], [-0.1, 0.1], [-0.1, 0.1], [-0.1, 0.1]])
+    box = np.clip(box, panda.lower[:, None], panda.upper[:, None])
+    assert not hf.certify(floor_claim(panda, box, 1e-6), halvings=1).ok
 
 
 def test_a_ceiling_below_what_occurs_is_refuted(panda, tmp_path):
@@ -152,7 +203,7 @@ def tree(change):
         put(["task"], "position"),
         put(["arm", "joints", 3, "origin", 0], lambda x: shifted(x, 0.1)),
         put(["arm", "joints", 3, "type"], "prismatic"),
-        put(["best", 1], lambda x: shifted(x, 1.0)),
+        put(["found", 1], lambda x: shifted(x, 1.0)),
         put(["volumes", "undecided"], "1/2^0"),
         tree(lambda t: t[:-1]),
         tree(lambda t: t + b"\x80"),
@@ -161,6 +212,7 @@ def tree(change):
         tree(lambda t: t.replace(t[-1:], b"\x80")),
         tree(lambda t: t.replace(t[-1:], b"\xc0")),
         put(["kind"], "refutation"),
+        put(["kind"], "floor"),
     ],
 )
 def test_forged_with_digests_repaired(fine, tmp_path, forge):
@@ -177,12 +229,35 @@ def test_forged_with_digests_repaired(fine, tmp_path, forge):
     assert verdict.undecided > 0
 
 
+@pytest.mark.parametrize(
+    "forge",
+    [
+        put(["threshold"], (0.0215).hex()),
+        put(["threshold"], (0.03).hex()),
+        put(["joint_box", 1, 1], lambda x: shifted(x, 0.6)),
+        tree(lambda t: b"\x00"),
+        tree(lambda t: b"\x80"),
+        put(["kind"], "ceiling"),
+    ],
+)
+def test_a_forged_floor(panda, tmp_path, forge):
+    middle, half = np.radians([40, 20, -30, -90, 30, 120, 0]), np.radians(2)
+    forged = hf.certify(floor_claim(panda, np.column_stack([middle - half, middle + half]), 0.02)).document
+    forge(forged)
+    try:
+        verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
+    except verifier.Refused:
+        return
+    assert verdict.rejected > 0
+    assert verdict.undecided > 0
+
+
 def test_another_best_configuration_is_believed_only_as_far_as_it_goes(fine, tmp_path):
     forged = copy.deepcopy(fine)
-    forged["best"] = [x.hex() for x in MIDDLE]
+    forged["found"] = [x.hex() for x in MIDDLE]
     verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
     assert verdict.rejected == 0
-    np.testing.assert_allclose(verdict.occurs, kept(hf.arms.load("panda"), MIDDLE[None]).min(), atol=1e-12)
+    np.testing.assert_allclose(verdict.occurs, kept(hf.arms.load("panda"), MIDDLE[None]).min(), atol=1e-7)
     assert verdict.occurs < hf.check_certificate(written.stored(fine, tmp_path / "b.certificate")).leaves
 
 

@@ -1,4 +1,4 @@
-"""What was found of a ceiling of relative manipulability, and the configuration that comes nearest to it."""
+"""What was found of a ceiling or a floor of relative manipulability, and the configuration that comes nearest to it."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.claims import CeilingClaim
-from holdfast.certificates.joint_boxes.halving import Halving
+from holdfast.certificates.joint_boxes.halving import Halving, Test
+from holdfast.certificates.joint_boxes.kernels import Floor
 from holdfast.certificates.joint_boxes.refutations import Halved
-from holdfast.certificates.joint_boxes.wrenches import Ceiling as Test
+from holdfast.certificates.joint_boxes.wrenches import Ceiling
+from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.proof import early
 from holdfast.certificates.taylor import Chain
 from holdfast.indices import relative_manipulability
@@ -22,31 +23,33 @@ from holdfast.notice import Progress
 Array = NDArray[np.float64]
 _SAMPLES, _CLIMBERS, _CLIMBS = 20_000, 64, 80
 _FINE = 10_000
+_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # of screws: axes, then moments
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ceiling(Halved):
-    """What the prover found for a ceiling of relative manipulability. It is not verified: :func:`check_certificate` does that.
+class ManipulabilityBound(Halved):
+    """What the prover found for a bound of relative manipulability. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.
-        proved: Exact share of the box of configurations in which no value is above the threshold.
-        best: (n,) rad, the best configuration of the box that was found.
-        value: Least relative manipulability there: the greatest one of the box is at least this.
+        proved: Exact share of the box of configurations in which the bound holds.
+        extreme: (n,) rad, the best configuration of the box that was found; of a floor, the worst.
+        value: Least relative manipulability there. The greatest of the box is from this to the ceiling; the lowest from the
+            floor to this.
     """
 
-    claim: CeilingClaim
-    best: Array
+    claim: BoundClaim
+    extreme: Array
     value: float
 
     @property
     def refuted(self) -> bool:
-        """True if the best configuration is above the threshold."""
-        return self.value > self.claim.threshold
+        """True if that configuration is beyond the threshold."""
+        return _sign(self.claim) * (self.value - self.claim.threshold) > 0
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.best))
+        at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.extreme))
         occurs = f"{self.value:.6f} occurs, at ({at}) deg"
         if self.refuted:
             return [self.document["claim"], f"Refuted by a witness: {occurs}."]
@@ -59,8 +62,8 @@ class Ceiling(Halved):
 
 
 def bounded(
-    claim: CeilingClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], progress: Progress | None
-) -> Ceiling:
+    claim: BoundClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], progress: Progress | None
+) -> ManipulabilityBound:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()
 
@@ -68,38 +71,45 @@ def bounded(
         if progress is not None:
             progress(int(_FINE * closed), _FINE)
 
-    best, value = _best(claim, np.random.default_rng(seed))
-    tree, finished = Halving(claim.joint_box, halvings), True
-    if value <= claim.threshold:
-        finished = tree.run(Test(Chain.of(claim.arm), claim.locks, claim.threshold), until, stop, tell)
+    extreme, value = _extreme(claim, np.random.default_rng(seed))
+    tree, finished, chain = Halving(claim.joint_box, halvings), True, Chain.of(claim.arm)
+    test: Test = Ceiling(chain, claim.locks, claim.threshold)
+    if claim.kind == "floor":
+        test = Floor(chain, _ROWS[claim.task], claim.locks, claim.threshold)
+    if _sign(claim) * (value - claim.threshold) <= 0:
+        finished = tree.run(test, until, stop, tell)
     seconds = perf_counter() - began
-    return Ceiling(
+    return ManipulabilityBound(
         claim=claim,
         proved=1 - tree.undecided,
         undecided=tree.undecided,
-        best=best,
+        extreme=extreme,
         value=value,
         leaves=tree.leaves,
         nodes=tree.tested,
         finished=finished,
         seconds=seconds,
-        document=documents.ceiling(claim, tree, best, seconds=seconds),
+        document=documents.bound(claim, tree, extreme, seconds=seconds),
     )
 
 
-def _best(claim: CeilingClaim, rng: np.random.Generator) -> tuple[Array, float]:
-    """The best configuration of samples, corners among them, and of random climbs from the best of these."""
+def _sign(claim: BoundClaim) -> float:
+    return 1.0 if claim.kind == "ceiling" else -1.0
+
+
+def _extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[Array, float]:
+    """The best or worst configuration of samples, corners among them, and of random climbs from some of these."""
     index = relative_manipulability(claim.arm, claim.task, failures=list(claim.locks))
-    low, high = claim.joint_box.T
+    (low, high), sign = claim.joint_box.T, _sign(claim)
     shares = np.concatenate([rng.random((_SAMPLES, len(low))), rng.integers(0, 3, (_SAMPLES // 4, len(low))) / 2])
     q = low + (high - low) * shares
-    value = index(q)
+    value = sign * index(q)
     some = np.argsort(-value)[:_CLIMBERS]
     at, best = q[some], value[some]
     for step in 0.2 * 0.85 ** np.arange(_CLIMBS):
         moves = rng.normal(size=at.shape) * rng.integers(0, 2, at.shape) * step * (high - low)
         moved = np.clip(at + moves, low, high)
-        value = index(moved)
+        value = sign * index(moved)
         better = value > best
         at[better], best[better] = moved[better], value[better]
-    return at[best.argmax()], float(best.max())
+    return at[best.argmax()], sign * float(best.max())

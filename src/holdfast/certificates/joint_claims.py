@@ -1,0 +1,163 @@
+"""Claims about configurations: bounds of relative manipulability, and what structure makes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.certificates.claims import need_flat, need_turning, within
+from holdfast.errors import InputError
+from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
+
+Array = NDArray[np.float64]
+
+_SIX = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoundClaim:
+    """For every configuration of a box, a bound of the least relative manipulability after one of some locks.
+
+    Attributes:
+        arm: The arm, all of whose joints turn.
+        kind: ``ceiling``: at most the threshold; ``floor``: at least.
+        task: ``pose``, or ``planar-pose``.
+        joint_box: (n, 2) rad.
+        threshold: Between 0 and 1.
+        locks: Indices of the joints that may lock, one at a time, in order.
+    """
+
+    arm: Arm
+    kind: str
+    task: str
+    joint_box: Array
+    threshold: float
+    locks: tuple[int, ...]
+
+
+@checked
+def ceiling_claim(
+    arm: Arm,
+    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
+    threshold: float,
+    *,
+    failures: FailureSpec = "single",
+    task: str = "pose",
+) -> BoundClaim:
+    """The claim that nowhere in a box of configurations relative manipulability is above a threshold.
+
+    Args:
+        arm: The arm; all of its joints must turn.
+        joint_box: (n, 2) rad, lowest and highest value of each joint; or ``{joint: (low, high)}``, of a joint that is not named
+            its limits.
+        threshold: Between 0 and 1.
+        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
+        task: ``pose``; ``planar-pose`` for an arm that moves in a plane.
+
+    Raises:
+        InputError: A box or threshold that makes no claim, a threshold that no configuration exceeds, another task, or an arm
+            with slides.
+        TaskError: An arm without redundancy, no failures, or failures of several joints at once.
+
+    Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
+    """
+    return _bound(arm, "ceiling", joint_box, threshold, failures, task)
+
+
+@checked
+def floor_claim(
+    arm: Arm,
+    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
+    threshold: float,
+    *,
+    failures: FailureSpec = "single",
+    task: str = "pose",
+) -> BoundClaim:
+    """The claim that everywhere in a box of configurations relative manipulability is a threshold or above.
+
+    The arguments, errors and source are those of :func:`ceiling_claim`.
+    """
+    return _bound(arm, "floor", joint_box, threshold, failures, task)
+
+
+def _bound(
+    arm: Arm,
+    kind: str,
+    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
+    threshold: float,
+    failures: FailureSpec,
+    task: str,
+) -> BoundClaim:
+    if task not in _SIX:
+        raise InputError(f"task is '{task}'; bounds are for {' and '.join(_SIX)}, whose rows are all of the motion")
+    need_turning(arm)
+    locks = tuple(sorted(single_joints(arm, failures)))
+    require_redundant(arm, _SIX[task], task, tuple((k,) for k in locks))
+    if task == "planar-pose":
+        need_flat(arm, "task planar-pose is")
+    if isinstance(joint_box, Mapping):
+        box = np.column_stack([arm.lower, arm.upper])
+        for joint, pair in joint_box.items():
+            box[arm.joint_index(joint)] = within(arm, joint, pair)
+    else:
+        pairs = np.asarray(joint_box, dtype=np.float64)
+        if pairs.shape != (arm.n, 2):
+            raise InputError(f"the box must be two angles for each of {arm.n} joints, rad, not an array of {pairs.shape}")
+        box = np.array([within(arm, k, pair) for k, pair in enumerate(pairs)])
+    if not np.isfinite(box).all():
+        k = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
+        raise InputError(f"{arm.joint_names[k]} has no limits; give its range")
+    if not 1e-6 <= threshold < 1:
+        raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
+    # The squares of all relative manipulabilities sum to n - m, so the least of some is at most their mean.
+    most = float(np.sqrt(min(1.0, (arm.n - _SIX[task]) / len(locks))))
+    if threshold >= most:
+        tail = "nothing to prove" if kind == "ceiling" else "no box has that floor"
+        raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: {tail}")
+    return BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StructuralZeroClaim:
+    """Wherever the arm is, a lock of one joint costs all relative manipulability of the pose: axes say so, not angles.
+
+    Attributes:
+        arm: The arm, all of whose joints turn.
+        locked: Index of the joint.
+        tolerance: m, by which its geometry may miss exact ones.
+    """
+
+    arm: Arm
+    locked: int
+    tolerance: float
+
+    @property
+    def task(self) -> str:
+        """All six rows."""
+        return "pose"
+
+
+@checked
+def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5) -> StructuralZeroClaim:
+    """The claim that the axes before a joint meet in one point, and those behind it in another: that its lock costs everything.
+
+    Args:
+        arm: The arm; all of its joints must turn.
+        joint: Between others, by name or index from 0.
+        tolerance: m, by which the frames of the file may miss those of an arm of which it is true exactly.
+
+    Raises:
+        InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
+    """
+    need_turning(arm)
+    which = arm.joint_index(joint)
+    if not 1 <= which <= arm.n - 2:
+        raise InputError(f"{arm.joint_names[which]} is not between other joints, and only these can have a structural zero")
+    if not 0 <= tolerance <= 1e-3:
+        raise InputError(f"tolerance is {tolerance}; it must be from 0 to 0.001 m")
+    return StructuralZeroClaim(arm=arm, locked=which, tolerance=float(tolerance))

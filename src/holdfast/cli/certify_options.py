@@ -1,0 +1,54 @@
+"""Options of the commands of ``holdfast certify``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+BoxOption = Annotated[
+    str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
+]
+SizeOption = Annotated[
+    str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
+]
+LockOption = Annotated[
+    str | None,
+    typer.Option("--lock", help="JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy.", show_default=False),
+]
+LimitOption = Annotated[
+    list[str] | None,
+    typer.Option("--limit", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again.", show_default=False),
+]
+RotationOption = Annotated[
+    str | None,
+    typer.Option(
+        "--rotation",
+        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll). Default: it may be any.",
+        show_default=False,
+    ),
+]
+TurnsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--rotation-size",
+        help="Edges of a box of roll, pitch and yaw around --rotation, rad: one number, or three. Default: none.",
+        show_default=False,
+    ),
+]
+AroundOption = Annotated[
+    str | None,
+    typer.Option("--around", help="Middle of the box: a value of each joint, rad. Default: limits.", show_default=False),
+]
+WithinOption = Annotated[
+    str | None,
+    typer.Option("--within", help="Half widths of it, rad: one number, or one for each joint.", show_default=False),
+]
+RowsOption = Annotated[str, typer.Option("--task", help="pose; planar-pose for arms in a plane.")]
+JointHalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each joint, at most.")]
+AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees (slides stay in m).")]
+HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
+TimeOption = Annotated[
+    float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
+]
+CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
