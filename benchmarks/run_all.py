@@ -26,6 +26,7 @@ WORKLOADS = (
     "w15_cells",
     "w16_endurance",
     "w16_fail_active",
+    "w17_certificates",
     "spectral",
     "memory",
 )

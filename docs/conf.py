@@ -39,7 +39,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent|fractions)\..*"),
     (
         r"py:.*",
-        r"(AccelerationsLike|Array|ArrayLike|CellLike|KeepLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
+        r"(AccelerationsLike|Array|Fraction|How|ArrayLike|CellLike|KeepLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
     ),
     (r"py:.*", r"Locked(At|Anywhere)?"),
     (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),
@@ -52,6 +52,7 @@ nitpick_ignore_regex = [
     # What a run keeps so that it can be run again.
     (r"py:class", r"_?Motion|Setting|RestSystem|holdfast\.endurance\.problem\.Problem"),
     (r"py:class", r"holdfast\.control\.export\._Law"),
+    (r"py:class", r"holdfast\.certificates\.joint_boxes\..*\.Halved"),
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]

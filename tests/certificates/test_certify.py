@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from fuzzed import Claimed
+from rivals import half_widths
 from scipy.optimize import least_squares
 
 import holdfast as hf
@@ -283,3 +284,13 @@ def test_what_is_refused(panda, three, mixed5, tmp_path):
 def test_smaller_boxes_take_fewer_cells(three):
     sizes = [hf.certify(reach_claim(three, (1.5, 0.8), size, locked={"joint1": (0.2, 0.6)})).leaves for size in (0.1, 0.4, 0.8)]
     assert all(a <= b for a, b in pairwise(sizes))
+
+
+@pytest.mark.parametrize("locked", [-1, 1])
+def test_boxes_are_much_wider_than_those_of_intervals(panda, rng, locked):
+    """At the same configurations with the same sections (K5: six times; measured: 8 to 17)."""
+    at = rng.uniform((0.4, -0.1, 0.45), (0.6, 0.1, 0.6), (3, 3))
+    q = rng.uniform((-0.5, -0.5, -0.5, -2.0, -1.0, 1.2, -1.0), (0.5, 0.5, 0.5, -1.8, 1.0, 2.2, 1.0), (3, 7))
+    ours, theirs = half_widths(panda, locked, at if locked < 0 else np.column_stack([at, q[:, locked]]), q)
+    assert len(ours) > 0
+    assert np.median(ours / theirs) > 6

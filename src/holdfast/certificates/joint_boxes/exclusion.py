@@ -28,6 +28,7 @@ _MOST_LEMMAS = 12
 _MARGIN = 1e-7  # m, so that the verifier's rounding costs nothing
 _SAMPLES, _CLIMBERS, _CLIMBS = 2048, 32, 60
 _LEMMA_NODES = 40_000
+_NARROW = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
 _LEMMA_HALVINGS = 40
 
 
@@ -185,7 +186,7 @@ def _lemma(
     segment = Segment.of(chain, link, n, chain.origins[-1])
     least, most = _span(segment, joints[link:], point, rng)
     total = float(segment.lengths.sum() + np.linalg.norm(segment.origins, axis=1).sum() + np.linalg.norm(point))
-    margin = max(0.01 * (most - least), 0.002 * total)
+    margin = max(_NARROW[0] * (most - least), _NARROW[1] * total)
     asked = max(0.0, least - margin), most + margin
     if link == 0:  # where this alone excludes all targets, as wide as does
         away = np.maximum(np.maximum(box[:, 0] - point[: len(box)], point[: len(box)] - box[:, 1]), 0)

@@ -1,0 +1,115 @@
+"""W17: certificates: the search beside the check, sampling in the same time, and intervals instead of Taylor forms."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+import harness
+
+sys.path.append(str(Path(__file__).parents[1] / "tests" / "certificates"))  # what is compared
+
+CENTRE = [0.485, 0.0, 0.53]
+RANGES = [(-45, 45), (-60, 45), (-45, 45), (-118, -103.5), (-90, 90), (50, 145), (-90, 90)]  # deg, of the joints of a Panda
+POSES, ROTATION = [0.968, 0.0, 0.025], 174  # m; deg about y
+NINE = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 40), (16, 56), (-40, 40)]  # deg
+
+
+def panda():
+    import holdfast as hf
+
+    arm = hf.arms.load("panda")
+    return arm, dict(zip(arm.joint_names, np.deg2rad(RANGES).tolist(), strict=True))
+
+
+def proofs(chosen: argparse.Namespace) -> str:
+    """Both halves of a certificate, and what as much time tells by samples."""
+    from rivals import sampled
+
+    import holdfast as hf
+
+    arm, ranges = panda()
+    rows = []
+    for size in (0.1,) if chosen.quick else (0.15, 0.30):
+        harness.progress(f"cube of {size} m")
+        claim = hf.certificates.tolerant_claim(arm, CENTRE, size, working_ranges=ranges)
+        began = time.process_time()
+        found = hf.certify(claim)
+        search = time.process_time() - began
+        with tempfile.TemporaryDirectory() as folder:
+            file = found.write(Path(folder) / "cube.certificate")
+            began = time.process_time()
+            check = hf.check_certificate(file)
+            checked = time.process_time() - began
+            amount = sum(x.stat().st_size for x in Path(folder).iterdir())
+        for part, verdict in zip(found.parts, check.parts, strict=True):
+            cells = [f"{part.leaves:,}", f"{float(part.undecided):.1e}", str(verdict.rejected)]
+            times = [f"{part.seconds:.1f}", f"{verdict.seconds:.1f}", sampled(part.claim, part.seconds)]
+            rows.append([f"{size} m", found.named(part), *cells, *times])
+        cells = [f"{found.leaves:,}", f"{float(found.undecided):.1e} at the worst", str(check.rejected)]
+        times = [
+            f"{search:.1f} of processor",
+            f"{checked:.1f} of processor",
+            f"{amount / max(found.leaves, 1):.0f} bytes a leaf",
+        ]
+        rows.append([f"{size} m", "all", *cells, *times])
+    head = ["cube", "lock of", "boxes proved", "undecided", "rejected", "search, s", "check, s", "sampling for as long"]
+    return harness.table("W17: a failure-tolerant box of a Panda, proved and checked", head, rows)
+
+
+def poses(chosen: argparse.Namespace) -> str:
+    """A cube of poses with a fixed rotation."""
+    from scipy.spatial.transform import Rotation
+
+    import holdfast as hf
+
+    harness.progress("poses of a PA10")
+    arm = hf.arms.load("pa10-9dof")
+    ranges = dict(zip(arm.joint_names, np.deg2rad(NINE).tolist(), strict=True))
+    turn = Rotation.from_euler("y", ROTATION, degrees=True).as_matrix()
+    claim = hf.certificates.tolerant_claim(arm, POSES, 0.02 if chosen.quick else 0.05, rotation=turn, working_ranges=ranges)
+    found = hf.certify(claim, time_limit=120)
+    with tempfile.TemporaryDirectory() as folder:
+        check = hf.check_certificate(found.write(Path(folder) / "cube.certificate"))
+    rows = [
+        [found.named(p), f"{p.leaves:,}", f"{float(p.undecided):.1e}", str(v.rejected), f"{p.seconds:.1f}", f"{v.seconds:.1f}"]
+        for p, v in zip(found.parts, check.parts, strict=True)
+    ]
+    rows.append(["all", f"{found.leaves:,}", f"{float(found.undecided):.1e} at the worst", str(check.rejected), "", ""])
+    head = ["lock of", "boxes proved", "undecided", "rejected", "search, s", "check, s"]
+    return harness.table("W17: poses with a fixed rotation, PA10 with nine joints", head, rows)
+
+
+def widths(chosen: argparse.Namespace) -> str:
+    """The widest box, equal along all axes and without limits, that one configuration proves, by both."""
+    from rivals import half_widths
+
+    arm, ranges = panda()
+    generator, rows = np.random.default_rng(5), []
+    for locked in range(-1, arm.n):
+        harness.progress(f"widths, lock of {locked + 1}")
+        at = generator.uniform(-0.15, 0.15, (4 if chosen.quick else 20, 3)) + CENTRE
+        if locked >= 0:
+            at = np.column_stack([at, generator.uniform(*ranges[arm.joint_names[locked]], len(at))])
+        q = generator.uniform(*np.array(list(ranges.values())).T, (len(at), arm.n))
+        ours, theirs = half_widths(arm, locked, at, q)
+        name, ratio = "healthy" if locked < 0 else arm.joint_names[locked], float(np.median(ours / theirs))
+        spans = [f"{1000 * np.median(x):.2f}" for x in (ours, theirs)]
+        rows.append([name, str(len(ours)), *spans, f"{ratio:.1f}", f"{ratio ** at.shape[1]:,.0f}"])
+    head = ["lock of", "configurations", "Taylor form, mm and mrad", "intervals, mm and mrad", "ratio", "as many boxes"]
+    return harness.table("W17: half widths of what one configuration proves (medians)", head, rows)
+
+
+def main() -> None:
+    chosen = harness.options(__doc__, rounds=1)
+    for part in (proofs, poses, widths):
+        print(part(chosen), flush=True)
+
+
+if __name__ == "__main__":
+    main()
