@@ -11,6 +11,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 import holdfast as hf
+from holdfast.cell.nodes import cut
 from holdfast.present.arm.visuals import part_of
 from holdfast.present.cell.bodies import body
 from holdfast.report.views import View
@@ -56,27 +57,12 @@ def moved(triangles: Triangles, frame: Array) -> Triangles:
     return triangles @ frame[:3, :3].T + frame[:3, 3]
 
 
-def fine(triangles: Triangles) -> Triangles:
-    """No edge longer than ``_SPLIT``."""
-    done = []
-    while len(triangles):
-        edges = np.linalg.norm(triangles - np.roll(triangles, -1, axis=1), axis=2)
-        small = edges.max(axis=1) <= _SPLIT
-        done.append(triangles[small])
-        large, k = triangles[~small], edges[~small].argmax(axis=1)
-        rows = np.arange(len(large))
-        a, b, c = (large[rows, (k + s) % 3] for s in range(3))
-        middle = (a + b) / 2
-        triangles = np.concatenate([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1)])
-    return np.concatenate(done)
-
-
 def draw(axes: Axes, view: View, bodies: Sequence[tuple[Triangles, str]]) -> None:
     """Draw bodies (triangles in the world, a colour each) as they are seen."""
     toward = np.cross(view.right, view.up)
     triangles, colors = [], []
     for given, color in bodies:
-        pieces = fine(given)
+        pieces = cut(given, _SPLIT)
         normal = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
         near = normal @ toward > 0  # triangles wind outward, so the others are at the back
