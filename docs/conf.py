@@ -52,7 +52,7 @@ nitpick_ignore_regex = [
     # What a run keeps so that it can be run again.
     (r"py:class", r"_?Motion|Setting|RestSystem|holdfast\.endurance\.problem\.Problem"),
     (r"py:class", r"holdfast\.control\.export\._Law"),
-    (r"py:class", r"holdfast\.certificates\.joint_boxes\..*\.Halved"),
+    (r"py:class", r"holdfast\.certificates\.proof\.Halved"),
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]

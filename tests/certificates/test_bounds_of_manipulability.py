@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import written
+from written import put, shifted
 
 import holdfast as hf
 import oracles
@@ -21,11 +22,6 @@ from holdfast.errors import InputError, TaskError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 MIDDLE = np.radians([-35, -45, 51, -111, -46, 84, -3])
-
-
-@pytest.fixture(scope="module")
-def panda():
-    return hf.arms.load("panda")
 
 
 def box_around(arm, degrees):
@@ -181,19 +177,6 @@ def test_a_ceiling_below_what_occurs_is_refuted(panda, tmp_path):
 @pytest.fixture(scope="module")
 def fine(panda):
     return hf.certify(ceiling_claim(panda, box_around(panda, 5), 0.0667 * 1.04)).document
-
-
-def shifted(text, by):
-    return (float.fromhex(text) + by).hex()
-
-
-def put(path, change):
-    def forge(d):
-        for key in path[:-1]:
-            d = d[key]
-        d[path[-1]] = change(d[path[-1]]) if callable(change) else change
-
-    return forge
 
 
 def tree(change):

@@ -8,6 +8,7 @@ from itertools import count
 import numpy as np
 import pytest
 import written
+from written import put, shifted
 
 import holdfast as hf
 import oracles
@@ -19,16 +20,6 @@ from holdfast.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 SHOULDER = np.array([0, 0, 0.333])  # of the Panda, m
-
-
-@pytest.fixture(scope="module")
-def three():
-    return hf.arms.load("planar-3r")
-
-
-@pytest.fixture(scope="module")
-def panda():
-    return hf.arms.load("panda")
 
 
 def checked(proof, tmp_path):
@@ -173,19 +164,6 @@ def fine(panda):
         panda, (0.5, 0, -0.3), 0.015, locked={1: tuple(np.radians((-20, -15)))}, limits={0: (-1, 1), 5: (0.2, 3.0)}
     )
     return hf.certify(claim).document
-
-
-def shifted(text, by):
-    return (float.fromhex(text) + by).hex()
-
-
-def put(path, change):
-    def forge(d):
-        for key in path[:-1]:
-            d = d[key]
-        d[path[-1]] = change(d[path[-1]]) if callable(change) else change
-
-    return forge
 
 
 def cut(text):

@@ -18,11 +18,6 @@ from holdfast.errors import InputError
 START = np.radians([20, -10, 15, -110, -10, 105, 60])
 
 
-@pytest.fixture(scope="module")
-def panda():
-    return hf.arms.load("panda")
-
-
 def axial(off):
     return np.stack([off[:, 2, 1] - off[:, 1, 2], off[:, 0, 2] - off[:, 2, 0], off[:, 1, 0] - off[:, 0, 1]], axis=1) / 2
 

@@ -7,6 +7,7 @@ import copy
 import numpy as np
 import pytest
 import written
+from written import put
 
 import holdfast as hf
 from holdfast.certificates import structural_zero_claim, verifier
@@ -56,15 +57,6 @@ def test_built_in_arms(name, zeros):
     assert {k for k, proof in proofs.items() if proof.ok} == zeros
     assert all(proofs[k].turned < 1e-9 and proofs[k].shifted < 1e-15 for k in zeros)
     assert all("miss a common point by 0." in proof.describe()[0] for k, proof in proofs.items() if k not in zeros)
-
-
-def put(path, change):
-    def forge(d):
-        for key in path[:-1]:
-            d = d[key]
-        d[path[-1]] = change
-
-    return forge
 
 
 @pytest.mark.parametrize(

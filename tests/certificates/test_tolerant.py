@@ -17,11 +17,6 @@ RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 
 
 @pytest.fixture(scope="module")
-def three():
-    return hf.arms.load("planar-3r")
-
-
-@pytest.fixture(scope="module")
 def proof(three):
     return hf.certify(tolerant_claim(three, (1.5, 0.5), 0.1, working_ranges=RANGES))
 

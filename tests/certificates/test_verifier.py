@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import written
 from scipy.spatial.transform import Rotation
-from written import Chain, place, planar, turn
+from written import Chain, place, planar, put, shifted, turn
 
 from holdfast.certificates import verifier
 
@@ -336,10 +336,6 @@ def test_random_bytes_of_the_file(locked, tmp_path, rng):
         assert left[0] == left[1]
 
 
-def shifted(text, by):
-    return (float.fromhex(text) + by).hex()
-
-
 def mirrored(numbers):
     return [(-float.fromhex(x) if k % 3 == 2 else float.fromhex(x)).hex() for k, x in enumerate(numbers)]
 
@@ -369,15 +365,6 @@ def _tree(change):
     return forge
 
 
-def _put(path, value):
-    def forge(d):
-        for key in path[:-1]:
-            d = d[key]
-        d[path[-1]] = value(d[path[-1]]) if callable(value) else value
-
-    return forge
-
-
 @pytest.mark.parametrize(
     "forge",
     [
@@ -392,19 +379,19 @@ def _put(path, value):
         _tree(lambda t: t.replace(b"\x10", b"\x13", 1)),  # the locked angle, not x
         _tree(lambda t: t.replace(b"\x10", b"\x14", 1)),  # no such axis
         _tree(lambda t: t.replace(b"\0", b"\7", 1)),
-        _put(["target", "box", 0, 1], lambda x: shifted(x, 0.03)),
-        _put(["angle", 0], lambda x: shifted(x, -0.5)),
-        _put(["arm", "joints", 5, "origin", 0], lambda x: shifted(x, 0.05)),
-        _put(["arm", "joints", 5, "rotation", 0], lambda x: shifted(x, 1e-6)),
-        _put(["limits", 3, 1], lambda x: shifted(x, 1.0)),  # beyond the arm's own
-        _put(["limits", 1], [(-0.174).hex(), (-0.173).hex()]),
-        _put(["locked"], 2),
-        _put(["locked"], True),
-        _put(["volumes", "proved"], "7/2^3"),
-        _put(["volumes", "undecided"], "1/2^0"),
-        _put(["unit"], (2.0**-23).hex()),
-        _put(["task"], "planar"),
-        _put(["refutations"], ["all"]),
+        put(["target", "box", 0, 1], lambda x: shifted(x, 0.03)),
+        put(["angle", 0], lambda x: shifted(x, -0.5)),
+        put(["arm", "joints", 5, "origin", 0], lambda x: shifted(x, 0.05)),
+        put(["arm", "joints", 5, "rotation", 0], lambda x: shifted(x, 1e-6)),
+        put(["limits", 3, 1], lambda x: shifted(x, 1.0)),  # beyond the arm's own
+        put(["limits", 1], [(-0.174).hex(), (-0.173).hex()]),
+        put(["locked"], 2),
+        put(["locked"], True),
+        put(["volumes", "proved"], "7/2^3"),
+        put(["volumes", "undecided"], "1/2^0"),
+        put(["unit"], (2.0**-23).hex()),
+        put(["task"], "planar"),
+        put(["refutations"], ["all"]),
     ],
 )
 def test_forged_with_digests_repaired(locked, tmp_path, forge):
@@ -421,10 +408,10 @@ def test_forged_with_digests_repaired(locked, tmp_path, forge):
 @pytest.mark.parametrize(
     "forge",
     [
-        _put(["target", "box", 0, 1], lambda x: shifted(x, 1e-6)),
-        _put(["angle", 0], lambda x: shifted(x, -1e-6)),
-        _put(["limits", 0, 1], lambda x: shifted(x, -0.5)),
-        _put(["arm", "joints", 5, "origin", 0], lambda x: shifted(x, 1e-6)),
+        put(["target", "box", 0, 1], lambda x: shifted(x, 1e-6)),
+        put(["angle", 0], lambda x: shifted(x, -1e-6)),
+        put(["limits", 0, 1], lambda x: shifted(x, -0.5)),
+        put(["arm", "joints", 5, "origin", 0], lambda x: shifted(x, 1e-6)),
     ],
 )
 def test_a_changed_claim_that_the_leaves_prove_is_accepted_and_true(locked, tmp_path, rng, forge):
@@ -440,41 +427,41 @@ def test_a_changed_claim_that_the_leaves_prove_is_accepted_and_true(locked, tmp_
 @pytest.mark.parametrize(
     ("forge", "said"),
     [
-        (_put(["version"], 2), "version must be a whole number from 1 to 1"),
-        (_put(["version"], True), "version"),
-        (_put(["format"], "else"), "format"),
-        (_put(["kind"], "miracle"), "kind"),
-        (_put(["claim"], "every target is reached"), "claim is not what the rest"),
-        (_put(["digest"], "0" * 64), "digest is not what the rest"),
-        (_put(["arm_digest"], "0" * 64), "arm_digest is not what the rest"),
-        (_put(["target", "box", 0, 0], 0.3), "box of target"),
-        (_put(["target", "box", 0, 0], "0.3"), "box of target"),
-        (_put(["target", "box", 0, 0], "nan"), "box of target"),
-        (_put(["target", "box", 0, 0], "inf"), "box of target"),
-        (_put(["target", "box", 0, 0], "0x1.0p+9999"), "too large"),
-        (_put(["target", "box", 0], ["0x1.0p+0", "0x0.0p+0"]), "upside down"),
-        (_put(["target", "box"], lambda x: x[:2]), "list of 3"),
-        (_put(["target", "orientation"], []), "must be null"),
-        (_put(["limits", 0], ["inf", "inf"]), "upside down"),
-        (_put(["limits", 0, 0], lambda x: shifted(x, -1)), "goes beyond"),
-        (_put(["angle"], ["-0x1.9p+1", "-0x1.9p+1"]), "goes beyond"),
-        (_put(["angle"], None), "angle"),
-        (_put(["arm", "joints"], []), "1 to 64 joints"),
-        (_put(["arm", "joints", 0, "name"], "joint2"), "different names"),
-        (_put(["arm", "joints", 0, "name"], "a\nb"), "200 letters to print"),
-        (_put(["arm", "joints", 0, "type"], "screw"), "revolute"),
-        (_put(["arm", "joints", 0, "mass"], "1"), "'mass'"),
+        (put(["version"], 2), "version must be a whole number from 1 to 1"),
+        (put(["version"], True), "version"),
+        (put(["format"], "else"), "format"),
+        (put(["kind"], "miracle"), "kind"),
+        (put(["claim"], "every target is reached"), "claim is not what the rest"),
+        (put(["digest"], "0" * 64), "digest is not what the rest"),
+        (put(["arm_digest"], "0" * 64), "arm_digest is not what the rest"),
+        (put(["target", "box", 0, 0], 0.3), "box of target"),
+        (put(["target", "box", 0, 0], "0.3"), "box of target"),
+        (put(["target", "box", 0, 0], "nan"), "box of target"),
+        (put(["target", "box", 0, 0], "inf"), "box of target"),
+        (put(["target", "box", 0, 0], "0x1.0p+9999"), "too large"),
+        (put(["target", "box", 0], ["0x1.0p+0", "0x0.0p+0"]), "upside down"),
+        (put(["target", "box"], lambda x: x[:2]), "list of 3"),
+        (put(["target", "orientation"], []), "must be null"),
+        (put(["limits", 0], ["inf", "inf"]), "upside down"),
+        (put(["limits", 0, 0], lambda x: shifted(x, -1)), "goes beyond"),
+        (put(["angle"], ["-0x1.9p+1", "-0x1.9p+1"]), "goes beyond"),
+        (put(["angle"], None), "angle"),
+        (put(["arm", "joints"], []), "1 to 64 joints"),
+        (put(["arm", "joints", 0, "name"], "joint2"), "different names"),
+        (put(["arm", "joints", 0, "name"], "a\nb"), "200 letters to print"),
+        (put(["arm", "joints", 0, "type"], "screw"), "revolute"),
+        (put(["arm", "joints", 0, "mass"], "1"), "'mass'"),
         (lambda d: d.pop("centres"), "'centres'"),
-        (_put(["extra"], 1), "'extra'"),
-        (_put(["tree"], "*"), "tree cannot be unpacked"),
-        (_put(["tree"], lambda x: written.base64.b64encode(b"abc").decode()), "tree cannot be unpacked"),
-        (_put(["tree"], lambda x: written.packed(b"\x10" * 2**12)), "holds too much"),
-        (_put(["tree"], lambda x: written.base64.b64encode(written.base64.b64decode(x) + b"more").decode()), "holds too much"),
-        (_put(["arm", "tool", "rotation"], mirrored), "right-handed"),
-        (_put(["centres"], lambda x: written.packed(b"\0" * 2**12)), "holds too much"),
-        (_put(["centres"], lambda x: written.packed(written.unpacked(x)[:-4])), "fewer centres"),
-        (_put(["centres"], lambda x: x[: len(x) // 8 * 4]), "cut off"),
-        (_put(["tree"], lambda x: written.packed(b"\x10" * 300)), "deeper than 200"),
+        (put(["extra"], 1), "'extra'"),
+        (put(["tree"], "*"), "tree cannot be unpacked"),
+        (put(["tree"], lambda x: written.base64.b64encode(b"abc").decode()), "tree cannot be unpacked"),
+        (put(["tree"], lambda x: written.packed(b"\x10" * 2**12)), "holds too much"),
+        (put(["tree"], lambda x: written.base64.b64encode(written.base64.b64decode(x) + b"more").decode()), "holds too much"),
+        (put(["arm", "tool", "rotation"], mirrored), "right-handed"),
+        (put(["centres"], lambda x: written.packed(b"\0" * 2**12)), "holds too much"),
+        (put(["centres"], lambda x: written.packed(written.unpacked(x)[:-4])), "fewer centres"),
+        (put(["centres"], lambda x: x[: len(x) // 8 * 4]), "cut off"),
+        (put(["tree"], lambda x: written.packed(b"\x10" * 300)), "deeper than 200"),
     ],
 )  # fmt: skip
 def test_a_bad_file_gets_one_sentence(locked, tmp_path, forge, said):
@@ -573,20 +560,20 @@ def test_a_bundle_with_a_part_that_is_rejected(bundle, tmp_path):
 @pytest.mark.parametrize(
     "forge",
     [
-        _put(["parts"], lambda x: x[:2]),
-        _put(["parts"], lambda x: [x[0], x[2], x[1]]),
-        _put(["parts", 1, "file"], "../a"),
-        _put(["parts", 1, "file"], "no.certificate"),
-        _put(["parts", 1, "locked"], 2),
-        _put(["locks"], [0, 1]),
-        _put(["locks"], [2, 0]),
-        _put(["locks"], []),
-        _put(["target", "box", 0, 1], lambda x: shifted(x, 1e-6)),
-        _put(["working_ranges", 0, 1], lambda x: shifted(x, 1e-6)),
-        _put(["working_ranges", 0, 1], lambda x: shifted(x, 9)),
-        _put(["limits", 0, 1], lambda x: shifted(x, -1e-6)),
-        _put(["volumes", "proved"], "1/2^1"),
-        _put(["arm", "tool", "origin", 0], lambda x: shifted(x, 1e-6)),
+        put(["parts"], lambda x: x[:2]),
+        put(["parts"], lambda x: [x[0], x[2], x[1]]),
+        put(["parts", 1, "file"], "../a"),
+        put(["parts", 1, "file"], "no.certificate"),
+        put(["parts", 1, "locked"], 2),
+        put(["locks"], [0, 1]),
+        put(["locks"], [2, 0]),
+        put(["locks"], []),
+        put(["target", "box", 0, 1], lambda x: shifted(x, 1e-6)),
+        put(["working_ranges", 0, 1], lambda x: shifted(x, 1e-6)),
+        put(["working_ranges", 0, 1], lambda x: shifted(x, 9)),
+        put(["limits", 0, 1], lambda x: shifted(x, -1e-6)),
+        put(["volumes", "proved"], "1/2^1"),
+        put(["arm", "tool", "origin", 0], lambda x: shifted(x, 1e-6)),
     ],
 )
 def test_a_forged_bundle_is_refused(bundle, forge):

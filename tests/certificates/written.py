@@ -6,7 +6,7 @@ import base64
 import itertools
 import json
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -120,6 +120,22 @@ def repaired(document: dict[str, Any]) -> dict[str, Any]:
     document["claim"] = verifier.sentence(document)
     document["digest"] = verifier.digest(document)
     return document
+
+
+def put(path: Sequence[str | int], change: Any) -> Callable[[dict[str, Any]], None]:
+    """A forger who changes one value of a document, or puts another in its place."""
+
+    def forge(document: Any) -> None:
+        for key in path[:-1]:
+            document = document[key]
+        document[path[-1]] = change(document[path[-1]]) if callable(change) else change
+
+    return forge
+
+
+def shifted(text: str, by: float) -> str:
+    """A number that is larger."""
+    return (float.fromhex(text) + by).hex()
 
 
 def packed(data: bytes) -> str:

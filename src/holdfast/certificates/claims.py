@@ -98,9 +98,7 @@ def reach_claim(
         InputError: A box, joint, angle or limit that makes no claim.
     """
     box, task, turned = _targets(arm, centre, size, rotation, rpy)
-    kept = np.column_stack([arm.lower, arm.upper])
-    for joint, pair in (limits or {}).items():
-        kept[arm.joint_index(joint)] = within(arm, joint, pair)
+    kept = narrowed(arm, limits or {})
     which, angle = -1, None
     if locked is not None:
         if len(locked) != 1:
@@ -148,9 +146,7 @@ def tolerant_claim(
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
     """
     box, task, turned = _targets(arm, centre, size, rotation, rpy)
-    ranges = np.column_stack([arm.lower, arm.upper])
-    for joint, pair in (working_ranges or {}).items():
-        ranges[arm.joint_index(joint)] = within(arm, joint, pair)
+    ranges = narrowed(arm, working_ranges or {})
     locks = tuple(sorted(single_joints(arm, failures)))
     for k in locks:
         if not np.isfinite(ranges[k]).all():
@@ -196,6 +192,14 @@ def _box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
 def _need_joints(arm: Arm, locked: int, rows: int) -> None:
     if arm.n - locked < rows:
         raise InputError(f"{arm.n - locked} joints are left for {rows} rows: no box can be reached")
+
+
+def narrowed(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) -> Array:
+    """(n, 2) rad and m, the intervals of some joints, which are in their limits, and the limits of the others."""
+    kept = np.column_stack([arm.lower, arm.upper])
+    for joint, pair in intervals.items():
+        kept[arm.joint_index(joint)] = within(arm, joint, pair)
+    return kept
 
 
 def within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:

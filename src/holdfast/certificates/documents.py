@@ -20,27 +20,24 @@ from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.taylor import UNIT, Chain
-from holdfast.certificates.tree import PROVED, UNDECIDED, Tree
+from holdfast.certificates.tree import PROVED, Tree
 
 Document = dict[str, Any]
 
 
-def reach(claim: ReachClaim, tree: Tree, *, seconds: float, nodes: int) -> Document:
-    """The certificate of a search."""
+def reach(claim: ReachClaim, tree: Tree, undecided: Fraction, *, seconds: float, nodes: int) -> Document:
+    """The certificate of a search, of whose box a part is undecided."""
     tokens, centres = tree.in_order()
     rows = np.array(centres, dtype="<i4").reshape(-1, claim.arm.n)
-    parts = {"proved": tree.volume(PROVED), "refuted": Fraction(0), "undecided": tree.volume(UNDECIDED)}
     return _signed(
         _common("reach", claim, seconds, nodes)
+        | _lock(claim)
         | {
-            "locked": claim.locked,
-            "angle": None if claim.angle is None else _hexes(claim.angle),
-            "limits": _hexes(claim.limits),
             "unit": UNIT.hex(),
             "tree": _packed(tokens),
             "centres": _packed(rows.tobytes()),
             "refutations": [],
-            "volumes": {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()},
+            "volumes": _volumes(undecided),
         }
     )
 
@@ -77,10 +74,8 @@ def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> D
     ]
     return _signed(
         _common("refutation", claim, seconds, found.nodes)
+        | _lock(claim)
         | {
-            "locked": claim.locked,
-            "angle": None if claim.angle is None else _hexes(claim.angle),
-            "limits": _hexes(claim.limits),
             "tree": _packed(found.tree),
             "lemmas": lemmas,
             "witness": None if found.witness is None else _hexes(found.witness),
@@ -143,6 +138,11 @@ def _common(
     if isinstance(claim, BoundClaim | StructuralZeroClaim):
         return made
     return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
+
+
+def _lock(claim: ReachClaim | OutOfReachClaim) -> Document:
+    angle = None if claim.angle is None else _hexes(claim.angle)
+    return {"locked": claim.locked, "angle": angle, "limits": _hexes(claim.limits)}
 
 
 def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:

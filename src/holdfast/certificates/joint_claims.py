@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.certificates.claims import need_flat, need_turning, within
+from holdfast.certificates.claims import narrowed, need_flat, need_turning, within
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 
@@ -101,9 +101,7 @@ def _bound(
     if task == "planar-pose":
         need_flat(arm, "task planar-pose is")
     if isinstance(joint_box, Mapping):
-        box = np.column_stack([arm.lower, arm.upper])
-        for joint, pair in joint_box.items():
-            box[arm.joint_index(joint)] = within(arm, joint, pair)
+        box = narrowed(arm, joint_box)
     else:
         pairs = np.asarray(joint_box, dtype=np.float64)
         if pairs.shape != (arm.n, 2):

@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from holdfast.caching import cached_property
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ReachClaim, TolerantClaim
 from holdfast.files.output import made, replaced
@@ -18,21 +19,18 @@ SUFFIX = ".certificate"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Proof(Result):
-    """What the prover found for a claim. It is not verified: :func:`check_certificate` does that.
+class Halved(Result):
+    """What the halving of a box found. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
-        claim: What was asked.
-        proved: Exact share of targets and locked angles that is proved.
-        undecided: The rest: neither proved nor refuted.
-        leaves: Cells that are proved.
-        nodes: Cells that were looked at.
-        finished: False if it was stopped, or the time limit was spent, before the smallest cells were reached.
+        proved, undecided: Exact parts of the box.
+        leaves: Boxes that are proved, those of lemmas among them.
+        nodes: Boxes that were looked at.
+        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
         seconds: Measured.
         document: The certificate, as its file holds it.
     """
 
-    claim: ReachClaim
     proved: Fraction
     undecided: Fraction
     leaves: int
@@ -53,6 +51,19 @@ class Proof(Result):
             StoreError: The file cannot be written.
         """
         return written(self.document, Path(file))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Proof(Halved):
+    """What the prover found for a claim. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        claim: What was asked.
+        proved: Exact share of targets and locked angles that is proved.
+        undecided: The rest: neither proved nor refuted.
+    """
+
+    claim: ReachClaim
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -97,7 +108,7 @@ class TolerantProof(Result):
         """The rest of it."""
         return self.worst.undecided
 
-    @property
+    @cached_property
     def tolerant(self) -> Fraction:
         """At least this share of the targets is proved while healthy, and for every lock at every locked angle."""
         count = len(self.claim.box)

@@ -19,7 +19,6 @@ from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.search import Search
 from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.taylor import Reach
-from holdfast.certificates.tree import PROVED, UNDECIDED
 from holdfast.errors import InputError
 from holdfast.notice import Progress, says
 
@@ -75,15 +74,16 @@ class _Part:
     def proof(self) -> Proof:
         """What is found so far."""
         tree = self._search.tree
+        undecided = tree.undecided
         return Proof(
             claim=self.claim,
-            proved=tree.volume(PROVED),
-            undecided=tree.volume(UNDECIDED),
+            proved=1 - undecided,
+            undecided=undecided,
             leaves=len(tree.centre),
             nodes=self._search.nodes,
             finished=self.finished,
             seconds=self._seconds,
-            document=documents.reach(self.claim, tree, seconds=self._seconds, nodes=self._search.nodes),
+            document=documents.reach(self.claim, tree, undecided, seconds=self._seconds, nodes=self._search.nodes),
         )
 
 
@@ -143,26 +143,31 @@ def certify(
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
     end = np.inf if time_limit is None else monotonic() + time_limit
+
+    def tell(closed: float, of: int = 1) -> None:
+        if progress is not None:
+            progress(int(_FINE * closed), _FINE * of)
+
     if isinstance(claim, OutOfReachClaim):
-        return refuted(claim, halvings, seed, end, stop, progress)
+        return refuted(claim, halvings, seed, end, stop, tell)
     if isinstance(claim, StructuralZeroClaim):
         return structure.proved(claim)
     if isinstance(claim, BoundClaim):
-        return bounded(claim, halvings, seed, end, stop, progress)
+        return bounded(claim, halvings, seed, end, stop, tell)
     claims = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
     ready, parts = monotonic() + (end - monotonic()) / _BEGIN, list[_Part]()
     for left, part in zip(range(len(claims), 0, -1), claims, strict=True):
         now = monotonic()
         parts.append(_Part(part, halvings, seed, now if stop() else now + (ready - now) / left))
 
-    def tell() -> None:
-        done = int(_FINE * sum(part.closed for part in parts))
-        if progress is not None and done:
-            progress(done, _FINE * len(parts))
+    def tell_of_all() -> None:
+        closed = sum(part.closed for part in parts)
+        if int(_FINE * closed):
+            tell(closed, len(parts))
 
     while (open_parts := [part for part in parts if not part.finished]) and monotonic() < end and not stop():
         for left, open_part in zip(range(len(open_parts), 0, -1), open_parts, strict=True):
             now = monotonic()
-            open_part.run(now + min((end - now) / left, _SLICE), stop, tell)
+            open_part.run(now + min((end - now) / left, _SLICE), stop, tell_of_all)
     proofs = tuple(part.proof() for part in parts)
     return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]

@@ -101,9 +101,8 @@ class Search:
         half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
         q, found, part = self._tried(cells.q, centre, half)
         smallest = np.asarray((cells.depth >= self.halvings)[:, self.width > 0].all(axis=1))
-        tried = smallest
-        self._from_pool(q, found, part, tried, centre, half)
-        self._along_self_motions(q, found, part, tried, centre, half)
+        self._from_pool(q, found, part, smallest, centre, half)
+        self._along_self_motions(q, found, part, smallest, centre, half)
         places = np.round(q / UNIT).astype(np.int64)
         places[:, ~self.reach.free] = 0
         for k in np.flatnonzero(found):

@@ -77,13 +77,10 @@ def proved(claim: StructuralZeroClaim) -> StructuralZero:
             other = axis if axis < last else axis - 1  # the pair of axes whose meeting point is taken
             if first == last:
                 continue
-            turn, place = chain.rotations[other + 1][:, 2], chain.origins[other + 1]
-            across = turn[:2] @ turn[:2]
-            if across < 1e-12:
+            near = chain.nearest(other)
+            if near is None:
                 return StructuralZero(claim=claim, ok=False, turned=0.0, shifted=np.inf, document=None)
-            t = -(place[:2] @ turn[:2]) / across
-            at = place[2] + t * turn[2] if other == axis else t
-            points[axis] = Fraction(str(round(float(at), _DIGITS)))
+            points[axis] = Fraction(str(round(near[axis - other], _DIGITS)))
         for axis in range(first + 1, last + 1):
             turn_by = verifier.exact_rotation(rotations[axis])
             meant = [-row[2] * points[axis] for row in turn_by]

@@ -63,6 +63,15 @@ class Chain:
             links.append(float(np.linalg.norm(link)))
         return cls(rotations, origins, np.array(links))
 
+    def nearest(self, k: int) -> tuple[float, float] | None:
+        """Where the axes of joint k and the next are nearest to each other: heights on them, m; None if they are parallel."""
+        turn, place = self.rotations[k + 1][:, 2], self.origins[k + 1]
+        across = turn[:2] @ turn[:2]
+        if across < 1e-12:
+            return None
+        along = -(place[:2] @ turn[:2]) / across
+        return float(place[2] + along * turn[2]), float(along)
+
 
 class Reach:
     """Configurations that put the tool somewhere, one joint locked or none.

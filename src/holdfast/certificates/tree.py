@@ -78,11 +78,12 @@ class Tree:
         depth[rows, twice] += 1
         return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2))
 
-    def volume(self, token: int) -> Fraction:
-        """Exact share of the root of the leaves with this token."""
+    @property
+    def undecided(self) -> Fraction:
+        """Exact share of the root."""
         counts: dict[int, int] = {}
         for found, depth in zip(self.token, self.depth, strict=True):
-            if found == token:
+            if found == UNDECIDED:
                 counts[depth] = counts.get(depth, 0) + 1
         return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
 

@@ -330,7 +330,8 @@ def _defect(numbers: list[str]) -> float:
 
 def _rotation(numbers: list[str]) -> Any:
     """Balls around nine numbers that hold the nearest rotation."""
-    return flint.arb_mat(3, 3, [flint.arb(real(x), _defect(numbers)) for x in numbers])
+    defect = _defect(numbers)
+    return flint.arb_mat(3, 3, [flint.arb(real(x), defect) for x in numbers])
 
 
 class Leaves:
@@ -523,6 +524,14 @@ class Balls:
         at = self.at + other.at
         return Balls(at, (self.off + other.off + 2.0**-52 * abs(at)) * UP + LEAST)
 
+    def transposed(self, *axes: int) -> Balls:
+        """With the axes in this order."""
+        return Balls(self.at.transpose(axes), self.off.transpose(axes))
+
+    def signed(self, by: Any) -> Balls:
+        """Times an array of -1, 0 and 1, which rounds nothing."""
+        return Balls(self.at * by, self.off * abs(by))
+
     @property
     def size(self) -> Array:
         """Above the absolute values."""
@@ -579,8 +588,8 @@ class Boxes:
         frames, self.n = [*arm["joints"], arm["tool"]], len(arm["joints"])
         self.low, self.width = [Fraction(low) for low, _ in ends], [Fraction(high) - Fraction(low) for low, high in ends]
         self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
-        self.turns = [Balls([real(x) for x in frame["rotation"]], _defect(frame["rotation"])) for frame in frames]
-        self.turns = [Balls(turn.at.reshape(3, 3), turn.off.reshape(3, 3)) for turn in self.turns]
+        numbers = [frame["rotation"] for frame in frames]
+        self.turns = [Balls(np.reshape([real(x) for x in given], (3, 3)), _defect(given)) for given in numbers]
         if flat:  # all that moves, moves in the plane: heights count nothing
             about = [turn.at for turn in self.turns[:-1]]
             good = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in about)
@@ -805,8 +814,7 @@ class Wrenches(Boxes):
         joints = [self.middles(j, (cell[j] for cell in parts)) for j in range(self.n)]
         half = np.stack([joint[:, 2] for joint in joints], 1)
         z, v, bracket, links, away = self.screws(joints)
-        screws, sign = joined(z, v), self.sign[:, :, None]
-        moved = Balls(bracket.at.transpose(0, 2, 1, 3) * sign, bracket.off.transpose(0, 2, 1, 3) * abs(sign))
+        screws, moved = joined(z, v), bracket.transposed(0, 2, 1, 3).signed(self.sign[:, :, None])
         y, turn = self.wrench(screws.at[:, k], np.delete(screws.at, k, axis=1), moved.at, half, k)
         wrench, turning = Balls(y), Balls(turn)
         slope = times("nljb,nb->nlj", moved, wrench) + times("nla,naj->nlj", screws, turning)
@@ -818,7 +826,7 @@ class Wrenches(Boxes):
         inner = np.arange(self.n)[:, None, None] >= self.middle  # behind the middle the nearer joint has the lower number
         twice = Balls(*(mask * np.where(inner, x, x.transpose(0, 1, 3, 2)) for x in (twice.at, twice.off)))
         cross = times("nai,nlja->nlij", turning, moved)
-        pairs = np.triu((twice + cross + Balls(cross.at.transpose(0, 1, 3, 2), cross.off.transpose(0, 1, 3, 2))).size, 1)
+        pairs = np.triu((twice + cross + cross.transposed(0, 1, 3, 2)).size, 1)
         own = (Balls(twice.at / 2, twice.off / 2) + cross).size * np.eye(self.n)
         rest = (slope.size * half[:, None]).sum(axis=2) + np.einsum("ni,nlij,nj->nl", half, pairs + own, half)
         more = [(length(x) * half).sum(axis=1) for x in (turn[:, :3], turn[:, 3:])]
@@ -864,8 +872,7 @@ class Motions(Wrenches):
         half, rows = np.stack([joint[:, 2] for joint in joints], 1), ROWS_OF_SCREWS[len(self.rows)]
         z, v, bracket, links, away = self.screws(joints)
         screws = joined(z, v)[:, :, rows]
-        beyond = abs(self.sign).T[:, :, None]
-        given = half, z, v, screws, Balls(bracket.at * beyond, bracket.off * beyond), self.remains(links, away, half)
+        given = half, z, v, screws, bracket.signed(abs(self.sign).T[:, :, None]), self.remains(links, away, half)
         jacobian = np.nan_to_num(screws.at.transpose(0, 2, 1))
         inverse = np.nan_to_num(np.linalg.pinv(jacobian))
         if self.n - len(rows) == 1:
@@ -889,19 +896,18 @@ class Motions(Wrenches):
         rows, nu = ROWS_OF_SCREWS[len(self.rows)], np.nan_to_num(nu / length(nu)[:, None])
         second, third = (np.stack([a] * 3 + [b] * 3, axis=2)[:, :, rows] for a, b in (left[:2], left[2:]))
         u, side = times("njlb,nl->njb", moved, Balls(nu)), self.side[:, None]
-        slope = Balls(u.at * side, u.off)[:, :, rows]
+        slope = u.signed(side)[:, :, rows]
         follow = np.nan_to_num(-np.einsum("nlb,njb->nlj", inverse, slope.at))
         slope += times("nlb,nlj->njb", screws, Balls(follow))
         turned, shifted = times("niab,njb->nija", crossed(z), u[:, :, :3]), times("niab,njb->nija", crossed(z), u[:, :, 3:])
         twice = joined(turned, shifted + times("niab,njb->nija", crossed(v), u[:, :, :3]))
         i, j = np.indices((self.n, self.n))  # i nearer the middle than j, or j itself
         nearer = (self.side[:, None] == self.side) & (np.where(self.side > 0, j - i, i - j) >= 0)
-        twice = Balls(twice.at * nearer[:, :, None], twice.off * nearer[:, :, None])
-        cross = times("njlb,nli->njib", moved, Balls(follow))
-        cross = Balls(cross.at * side[:, :, None], cross.off)
+        twice = twice.signed(1 * nearer[:, :, None])
+        cross = times("njlb,nli->njib", moved, Balls(follow)).signed(side[:, :, None])
         own = Balls(twice.at / 2, twice.off / 2) + cross
-        swap = [Balls(x.at.transpose(0, 2, 1, 3), x.off.transpose(0, 2, 1, 3)) for x in (twice, cross)]
-        pairs = (twice + swap[0] + cross + swap[1]).size * np.triu(np.ones((self.n, self.n)), 1)[:, :, None]
+        both = twice + twice.transposed(0, 2, 1, 3) + cross + cross.transposed(0, 2, 1, 3)
+        pairs = both.size * np.triu(np.ones((self.n, self.n)), 1)[:, :, None]
         bend = (pairs + own.size * np.eye(self.n)[:, :, None])[..., rows]
         off = times("nlb,nl->nb", screws, Balls(nu)).size + np.einsum("njb,nj->nb", slope.size, half)
         off += np.einsum("nijb,ni,nj->nb", bend, half, half) + np.einsum("nl,nlb->nb", abs(nu), third)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+REJECTED, REFUTED = 1, 4  # exit codes
+
+CertificateOption = Annotated[Path, typer.Option("--out", help="Certificate to write.")]
 BoxOption = Annotated[
     str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
 ]

@@ -12,17 +12,14 @@ from numpy.typing import NDArray
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.joint_boxes.halving import Halving, Test
 from holdfast.certificates.joint_boxes.kernels import Floor
-from holdfast.certificates.joint_boxes.refutations import Halved
 from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.joint_claims import BoundClaim
-from holdfast.certificates.proof import early
+from holdfast.certificates.proof import Halved, early
 from holdfast.certificates.taylor import Chain
 from holdfast.indices import relative_manipulability
-from holdfast.notice import Progress
 
 Array = NDArray[np.float64]
 _SAMPLES, _CLIMBERS, _CLIMBS = 20_000, 64, 80
-_FINE = 10_000
 _ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # of screws: axes, then moments
 
 
@@ -62,15 +59,10 @@ class ManipulabilityBound(Halved):
 
 
 def bounded(
-    claim: BoundClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], progress: Progress | None
+    claim: BoundClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
 ) -> ManipulabilityBound:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()
-
-    def tell(closed: float) -> None:
-        if progress is not None:
-            progress(int(_FINE * closed), _FINE)
-
     extreme, value = _extreme(claim, np.random.default_rng(seed))
     tree, finished, chain = Halving(claim.joint_box, halvings), True, Chain.of(claim.arm)
     test: Test = Ceiling(chain, claim.locks, claim.threshold)

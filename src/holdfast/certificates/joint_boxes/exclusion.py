@@ -162,15 +162,8 @@ def _points(chain: Chain, joints: Array, rng: np.random.Generator) -> list[tuple
     n, made = len(chain.lengths), list[tuple[int, Array]]()
     q, before = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
     for k in range(n):
-        if k + 1 < n:
-            turn, there = chain.rotations[k + 1][:, 2], chain.origins[k + 1]
-            across = np.array([turn[0], turn[1]])
-            # On the z axis, s with least distance from the line there + t turn; of parallel ones the height of its origin.
-            along = -(there[:2] @ across) / (across @ across) * turn[2] if across @ across > 1e-12 else 0.0
-            s = there[2] + along
-        else:
-            s = chain.origins[n][2]
-        point = chain.origins[k] + chain.rotations[k][:, 2] * s
+        near = chain.nearest(k) if k + 1 < n else None  # of parallel axes, and the last one, the height of what comes next
+        point = chain.origins[k] + chain.rotations[k][:, 2] * (near[0] if near else chain.origins[k + 1][2])
         at = Segment.of(chain, 0, k, point).frames(q[:, :k])[0]
         if np.abs(at - before).max() > 1e-6:
             made.append((k, point))

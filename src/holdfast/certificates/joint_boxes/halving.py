@@ -9,11 +9,13 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.certificates.tree import SPLIT, UNDECIDED
+
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 Test = Callable[[Array, Array], tuple[Index, Array]]
 
-UNDECIDED, SPLIT, OPEN = 2, 16, -1  # tokens of the tree; what is not decided yet
+OPEN = -1  # what is not decided yet
 _AT_ONCE = 4096
 
 

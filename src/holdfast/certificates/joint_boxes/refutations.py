@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
-from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,46 +12,7 @@ from numpy.typing import NDArray
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.exclusion import exclude
-from holdfast.certificates.proof import early, written
-from holdfast.notice import Progress
-from holdfast.result import Result
-
-_FINE = 10_000
-
-
-@dataclass(frozen=True, kw_only=True)
-class Halved(Result):
-    """What the halving of a box found. It is not verified: :func:`check_certificate` does that.
-
-    Attributes:
-        proved, undecided: Exact parts of the box.
-        leaves: Boxes that are proved, those of lemmas among them.
-        nodes: Boxes that were looked at.
-        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
-        seconds: Measured.
-        document: The certificate, as its file holds it.
-    """
-
-    proved: Fraction
-    undecided: Fraction
-    leaves: int
-    nodes: int
-    finished: bool
-    seconds: float
-    document: dict[str, Any]
-
-    @property
-    def ok(self) -> bool:
-        """True if nothing is undecided."""
-        return self.undecided == 0
-
-    def write(self, file: str | Path) -> Path:
-        """Write the certificate.
-
-        Raises:
-            StoreError: The file cannot be written.
-        """
-        return written(self.document, Path(file))
+from holdfast.certificates.proof import Halved, early
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,15 +48,10 @@ class Refutation(Halved):
 
 
 def refuted(
-    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], progress: Progress | None
+    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
 ) -> Refutation:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()
-
-    def tell(closed: float) -> None:
-        if progress is not None:
-            progress(int(_FINE * closed), _FINE)
-
     found = exclude(claim, halvings, seed, until, stop, tell)
     seconds = perf_counter() - began
     return Refutation(

@@ -52,7 +52,8 @@ class Ceiling:
             ratio, each = self._ratio(k, screws, gram, brackets, links, away, half, damped)
             better = (ratio < best) & np.isfinite(each).all(axis=1)
             best[better], gain[better] = ratio[better], each[better]
-            found[better & (ratio < self.slope * (1 - _MARGIN))] = LOCK + k[better & (ratio < self.slope * (1 - _MARGIN))]
+            good = better & (ratio < self.slope * (1 - _MARGIN))
+            found[good] = LOCK + k[good]
         return found, gain
 
     def _ratio(
@@ -65,12 +66,11 @@ class Ceiling:
         own = screws[rows, k]
         others = gram - own[:, :, None] * own[:, None] + damped[:, None, None] * np.eye(6)
         y = np.linalg.solve(others, own[:, :, None])[:, :, 0]
-        along = y / np.einsum("na,na->n", y, own)[:, None]  # its moment about axis k is 1
-        y = along
+        y = y / np.einsum("na,na->n", y, own)[:, None]  # its moment about axis k is 1
         b = np.einsum("nljb,nb->nlj", moved, y)
         pull = np.einsum("nla,nlj->naj", screws, b) - own[:, :, None] * b[rows, k][:, None]
         turn = -np.linalg.solve(others, pull)  # (N, 6, j)
-        turn -= along[:, :, None] * (np.einsum("na,naj->nj", own, turn) + b[rows, k])[:, None]
+        turn -= y[:, :, None] * (np.einsum("na,naj->nj", own, turn) + b[rows, k])[:, None]
         slope = b + np.einsum("nla,naj->nlj", screws, turn)
         m, f, z, v = y[:, None, :3], y[:, None, 3:], screws[:, :, :3], screws[:, :, 3:]
         w = np.concatenate([np.cross(m, z) + np.cross(f, v), np.cross(f, z)], axis=2)

@@ -8,11 +8,11 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
+from holdfast.cli.certify_options import REJECTED
 from holdfast.cli.options import JsonOption
 from holdfast.errors import InputError
 from holdfast.present.results import printed
 
-REJECTED = 1  # exit code
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
 
 command = typer.Typer(

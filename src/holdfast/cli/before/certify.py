@@ -10,9 +10,12 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.certify_options import (
+    REFUTED,
+    REJECTED,
     AnglesOption,
     AroundOption,
     BoxOption,
+    CertificateOption,
     CheckOption,
     HalvingsOption,
     JointHalvingsOption,
@@ -45,7 +48,6 @@ from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
 from holdfast.present.results import drawn, printed
 
-REJECTED, REFUTED = 1, 4  # exit codes
 command = typer.Typer(
     name="certify",
     help="Prove that an arm reaches every target of a box, and write a certificate.",
@@ -70,7 +72,7 @@ def reach(
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("reach.certificate"),
+    out: CertificateOption = Path("reach.certificate"),
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -108,7 +110,7 @@ def out_of_reach(
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("out-of-reach.certificate"),
+    out: CertificateOption = Path("out-of-reach.certificate"),
     json_: JsonOption = False,
 ) -> None:
     """Prove that no point of a box is reached, healthy or wherever one joint locks in an interval.
@@ -200,7 +202,7 @@ def ceiling(
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("ceiling.certificate"),
+    out: CertificateOption = Path("ceiling.certificate"),
     json_: JsonOption = False,
 ) -> None:
     """Prove that relative manipulability is nowhere in a box of configurations above a threshold.
@@ -239,7 +241,7 @@ def floor(
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("floor.certificate"),
+    out: CertificateOption = Path("floor.certificate"),
     json_: JsonOption = False,
 ) -> None:
     """Prove that relative manipulability is nowhere in a box of configurations below a threshold, and that none is singular.
@@ -287,7 +289,7 @@ def structural_zero(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    out: Annotated[Path, typer.Option("--out", help="Certificate to write.")] = Path("structural-zero.certificate"),
+    out: CertificateOption = Path("structural-zero.certificate"),
     json_: JsonOption = False,
 ) -> None:
     """Prove that a lock of a joint between a spherical shoulder and a spherical wrist costs everything, wherever the arm is.
