@@ -204,8 +204,8 @@ def test_density_integrates_to_the_finite_share(better, rng):
 
 @pytest.mark.parametrize(
     "values",
-    [[0.3], [0.3] * 5, [0.0] * 5, [0.127, np.nextafter(0.127, 1)], [1e12, np.nextafter(1e12, 2e12)]],
-    ids=["one", "equal", "zeros", "rounding noise", "rounding noise, large"],
+    [[0.3], [0.3] * 5, [0.0] * 5, [0.127, np.nextafter(0.127, 1)], [1e12, np.nextafter(1e12, 2e12)], [0.0, 2.3e-308]],
+    ids=["one", "equal", "zeros", "rounding noise", "rounding noise, large", "the least numbers there are"],
 )
 def test_density_of_values_that_hardly_differ(values):
     """An index that does not depend on the joints that move: equal but for rounding."""

@@ -16,6 +16,8 @@ __all__ = ["Distribution", "Interval"]
 
 Array = NDArray[np.float64]
 
+_NARROWEST = 1e-300  # a density over less is no number any more
+
 
 @dataclass(kw_only=True)
 class Distribution:
@@ -317,7 +319,7 @@ class Distribution:
         size = self._size(True)
         low, high = self.lowest, self.highest
         middle = low if np.isfinite(low) else 0.0
-        if not high - low > 1e-12 * abs(middle):
+        if not high - low > max(1e-12 * abs(middle), _NARROWEST):
             half = max(0.5, 0.5e-3 * abs(middle))
             low, high = middle - half, middle + half
         edges = np.linspace(low, high, bins + 1)
