@@ -58,7 +58,7 @@ page: page/node_modules/.package-lock.json  ## Build the experiment's page into 
 test: lint types page/node_modules/.package-lock.json $(VENV)/browser.stamp  ## Set up, then run lint, types and all tests.
 	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=40
 
-check: lint types  ## Before a pull request: lint, types and the quick tests of every package.
+check: lint types page/node_modules/.package-lock.json  ## Before a pull request: lint, types and the quick tests of every package.
 	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder -m "not slow" --ignore tests/browser
 
 lint: $(VENV)/test.stamp
