@@ -14,7 +14,7 @@ from holdfast.arguments import checked
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
-from holdfast.enclosure.box_bounds import Parts, box_kernel, idle, turning
+from holdfast.enclosure.box_bounds import ROUNDING, Parts, box_kernel, idle
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel
 from holdfast.notice import says, working
@@ -25,11 +25,9 @@ Flags = NDArray[np.bool_]
 Blocked = Callable[[Array, Array], Flags]
 """Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
 
-ROUNDING = 1e-9  # m and rad by which every bound is widened; the kernel's own errors are 1e-13
 SMALLEST = 1e-6  # rad and m: a box no wider than this is not halved any more
 _BATCH = 4096  # boxes looked at together
 _GAIN = 0.6  # of its volume: a box that was cut to less is looked at again before it is halved
-_TURN = 0.35  # m: what 1 rad of a joint counts beside the way of the tool when the joint to halve is chosen
 _NEWTON = 30
 _ALONE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
 _TILT = 1e-6  # what it does to the bounds is its square
@@ -200,7 +198,6 @@ class _Search:
                 raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
         self._kernel: Kernel = box_kernel(arm, parts)
         self._given = pose[:3, 3], pose[:3, :3], np.full(parts.m, tolerance)
-        self._turning = np.where(turning(arm, parts), _TURN, 0.0)
         self._unseen = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
         if idle(arm, parts):
             self._unseen[-1] = (high[-1] - low[-1]) / 2
@@ -257,39 +254,31 @@ class _Search:
         """Cut boxes (N, 2, n) to what they can hold; what is left is looked at again, halved, or set aside."""
         self.boxes += len(boxes)
         n = self._n
-        out = self._kernel.rows(boxes[:, 0], boxes[:, 1], *self._given)
-        left = np.flatnonzero(out[:, 0] <= ROUNDING)
-        out, boxes = out[left], boxes[left]
-        middle, radius, rho = out[:, 1 : n + 1], out[:, n + 1 : 2 * n + 1] + ROUNDING, out[:, 2 * n + 1 : 3 * n + 1]
-        centre, half = boxes[:, 0], boxes[:, 1]
-        low, high = np.maximum(middle - radius, -half), np.minimum(middle + radius, half)
-        open_ = (low <= high).all(axis=1)
+        out = self._kernel.rows(boxes[:, 0], boxes[:, 1], *self._given, first=2 * n + 4)
+        left = np.flatnonzero(out[:, 0] <= 0)
+        cut, inside, volume, which = out[left, 1 : 2 * n + 1].reshape(-1, 2, n), *out[left, 2 * n + 1 :].T
         if self._square:
-            held = open_ & (half.max(axis=1) < _ALONE)
-            held[held] = ((np.abs(middle[held]) + radius[held] < half[held]) | ~self._free).all(axis=1)
+            held = (inside < 0) & (boxes[left, 1].max(axis=1) < _ALONE)
             if held.any():
-                self._polish(centre[held] + middle[held], boxes[held])
-                open_ &= ~held
-        low, high, rho, before = low[open_], high[open_], rho[open_], half[open_]
-        centre, half = centre[open_] + (low + high) / 2, np.where(self._free, (high - low) / 2, 0.0)
-        if self._blocked is not None and len(centre):
-            clear = ~self._blocked(centre, half + self._unseen)
-            self.left_out += len(clear) - int(clear.sum())
-            centre, half, rho, before = centre[clear], half[clear], rho[clear], before[clear]
-        tiny = half.max(axis=1, initial=0.0) < SMALLEST
+                self._polish(cut[held, 0], boxes[left[held]])
+                cut, volume, which = cut[~held], volume[~held], which[~held]
+        if self._blocked is not None and len(cut):
+            clear = ~self._blocked(cut[:, 0], cut[:, 1] + self._unseen)
+            if not clear.all():
+                self.left_out += len(clear) - int(clear.sum())
+                cut, volume, which = cut[clear], volume[clear], which[clear]
+        tiny = cut[:, 1].max(axis=1, initial=0.0) < SMALLEST
         if tiny.any():
-            self._polish(centre[tiny], np.stack([centre[tiny], half[tiny]], axis=1))
-        volume = (half[:, self._free] / before[:, self._free]).prod(axis=1)
-        again = ~tiny & (volume < _GAIN)
-        halved = ~tiny & ~again
-        c, h = centre[halved], half[halved]
-        k = ((rho[halved] + self._turning) * h).argmax(axis=1)
-        row = np.arange(len(c))
-        h[row, k] /= 2
-        sides = np.repeat(np.stack([c, h], axis=1)[None], 2, axis=0)
-        sides[0, row, 0, k] -= h[row, k]
-        sides[1, row, 0, k] += h[row, k]
-        more = np.concatenate([np.stack([centre[again], half[again]], axis=1), *sides])
+            self._polish(cut[tiny, 0], cut[tiny])
+            cut, volume, which = cut[~tiny], volume[~tiny], which[~tiny]
+        again = volume < _GAIN
+        halved = cut[~again]
+        row, k = np.arange(len(halved)), which[~again].astype(np.intp)
+        halved[row, 1, k] /= 2
+        lower = halved.copy()
+        lower[row, 0, k] -= halved[row, 1, k]
+        halved[row, 0, k] += halved[row, 1, k]
+        more = np.concatenate([cut[again], lower, halved])
         if len(more):
             self._stack.append(more)
 
@@ -298,11 +287,11 @@ class _Search:
         near = np.where(self._free, 1e-4, 0.0)
         for _ in range(_NEWTON):
             out = self._kernel.rows(q, np.broadcast_to(near, q.shape), *self._given)
-            step = out[:, 1 : self._n + 1]
+            step = out[:, 2 * self._n + 4 : 3 * self._n + 4]
             q = np.clip(q + step, self._low, self._high)
             if np.abs(step).max() < 1e-13:
                 break
-        missed = np.abs(self._kernel.rows(q, np.zeros_like(q), *self._given)[:, 3 * self._n + 1 :]).max(axis=1)
+        missed = np.abs(self._kernel.rows(q, np.zeros_like(q), *self._given)[:, 3 * self._n + 4 :]).max(axis=1)
         there = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + SMALLEST).all(axis=1)
         good = there & (missed <= self._given[2].max() + ROUNDING)
         for x in q[good]:

@@ -14,7 +14,7 @@ from holdfast.enclosure import Configurations, Finding, all_configurations
 from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
-from holdfast.recovery.proofs.within_objects import WithinObjects
+from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Space
 
@@ -49,22 +49,22 @@ def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str |
 def every_clear(
     degraded: Degraded, task: Task, pose: Array, space: Space, clearance: Clearance | None
 ) -> tuple[Configurations | None, str | None]:
-    """Every configuration of a pose (4, 4) that is not within an object, and that none is clear, if these can be told.
+    """Every configuration of a pose (4, 4) that is not certainly blocked, and that none is clear, if these can be told.
 
     In half of the time that is left.
     """
     kept = space.clearance
-    blocked = None if kept is None or kept.obstacles is None else WithinObjects(kept, space.margin)
+    blocked = None if kept is None else BlockedBoxes(kept, space.margin, (space.low, space.high))
     found = listed(degraded, task, pose, space.seconds_left / 2, blocked)
-    return found, proved_by(found, clearance, "" if blocked is None else blocked.objects)
+    return found, proved_by(found, clearance, "" if blocked is None else blocked.what)
 
 
 def listed(
-    degraded: Degraded, task: Task, pose: Array, seconds: float, blocked: WithinObjects | None = None
+    degraded: Degraded, task: Task, pose: Array, seconds: float, blocked: BlockedBoxes | None = None
 ) -> Configurations | None:
     """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.
 
-    Those in which the arm certainly is within an object are left out.
+    Those in which the arm certainly touches something are left out.
 
     Args:
         degraded: What is in force, every lock with its value.
@@ -94,20 +94,20 @@ def listed(
         return None
 
 
-def proved_by(found: Configurations | None, clearance: Clearance | None, objects: str = "") -> str | None:
+def proved_by(found: Configurations | None, clearance: Clearance | None, what: str = "") -> str | None:
     """A sentence that proves that no clear configuration exists: there is none, or each of them touches something.
 
     Args:
         found: All there are.
         clearance: By which they are judged.
-        objects: Names of those within which boxes were left out.
+        what: Names of what blocked the boxes that were left out.
     """
     if found is None or found.finding not in (Finding.NONE, Finding.ALL):
         return None
     if not len(found.q) and found.blocked:
         return (
-            f"every configuration within the limits that meets it is within an object ({objects}), by {found.boxes:,} boxes of "
-            "joints, up to floating point"
+            f"every configuration within the limits that meets it touches something ({what}), by {found.boxes:,} boxes of joints, "
+            "up to floating point"
         )
     if not len(found.q):
         return f"no configuration within the limits meets it, by {found.boxes:,} boxes of joints, up to floating point"
