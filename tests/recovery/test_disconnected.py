@@ -11,8 +11,8 @@ import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules
 from holdfast.recovery import Ending, search
-from holdfast.recovery.proofs.flood import _Points, disconnected, holds_configuration, may_meet
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
+from holdfast.recovery.proofs.flood import _Points, disconnected, holds_configuration, may_meet
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.space import Space
 

@@ -88,6 +88,7 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     assert result.ok
     assert result.rest.graph > 0
     monkeypatch.setattr(continuation, "through_layers", lambda *_: Graph([], 0, 0))
+    monkeypatch.setattr(continuation, "_FINER", 1)
     alone = finished(three, low, high, here, path)
     assert not alone.ok
     assert flooded(path.pose(result.rest.share)[:, :2, 3], low, high)

@@ -100,41 +100,49 @@ class Parts:
 
 
 @recalled
-def box_kernel(arm: Arm, parts: Parts) -> Kernel:
-    """The kernel of an arm and a task's rows.
+def box_kernel(arm: Arm, parts: Parts, along: bool = False) -> Kernel:
+    """The kernel of an arm and a task's rows, of a pose or ``along`` a straight leg of a path.
 
     Inputs: centre (n,) and half widths (n,), rad and m; position (3,) and orientation (3, 3) wanted; by how much each row may
     be missed (m,). Outputs: ``margin``, above 0 for a box that is empty; centre (n,) and half widths (n,) of what it can still
-    hold; ``inside``, below 0 where that is strictly inside of the joints that move; how much of the volume it is; which joint to
-    halve; from the centre to the middle of what it can hold (n,); the rows' error at the centre (m,).
+    hold; ``inside``, below 0 where that is strictly inside of the joints that move; how much of the volume it is; which joint
+    to halve; from the centre to the middle of what it can hold (n,); the rows' error at the centre (m,).
+
+    Along a leg the way of the end effector (3,), m, is one more input, and where on it the pose is, 0 to 1, one more joint: the
+    last of all that is (n,).
     """
-    n = arm.n
-    c, h = ca.SX.sym("c", n), ca.SX.sym("h", n)
+    n, size = arm.n, arm.n + along
+    c, h = ca.SX.sym("c", size), ca.SX.sym("h", size)
     p, r, tolerance = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("t", parts.m)
-    chain = kinematics.chain(arm, c)
+    way = ca.SX.sym("w", 3)
+    chain = kinematics.chain(arm, c[:n])
     foot = _foot(arm) if parts.turn == "all" and parts.linear else None
     beside = np.zeros(3) if foot is None else arm.tool[:3, :3].T @ (foot - arm.tool[:3, 3])
     point = chain.position + chain.rotation @ beside
     full = kinematics.jacobian_of(arm, chain, point)
     turns = [not joint.prismatic for joint in arm.joints]
-    rho = _distances(arm, full, (c, h), turns, arm.tool[:3, 3] if foot is None else foot)
+    rho = _distances(arm, full, (c[:n], h[:n]), turns, arm.tool[:3, 3] if foot is None else foot)
     leaning = turning(arm, parts)
     error, slopes, remainder = [], [], []
     if parts.linear:
         matrix = kinematics.constant(np.array(parts.linear))
-        error.append(matrix @ (point - p - r @ beside))
-        slopes.append(matrix @ full[:3, :])
-        bends = _bends(lambda k, l: matrix @ ca.cross(full[3:, k], full[:3, l]), h, turns, [True] * n)
+        error.append(matrix @ (point - p - r @ beside - (c[n] * way if along else 0)))
+        slopes.append(matrix @ ca.horzcat(full[:3, :], *([-way] * along)))
+        bends = _bends(lambda k, i: matrix @ ca.cross(full[3:, k], full[:3, i]), h, turns, [True] * n)
         remainder.append(_least(bends, *_higher(rho, h, turns)))
     missed, spread = None, sum((h[k] for k in range(n) if leaning[k]), ca.SX(0))
     if parts.turn != "none":
         value, slope, second, missed = _turn(parts, chain.rotation, full[3:, :], r)
         error.append(value)
-        slopes.append(slope)
+        slopes.append(ca.horzcat(slope, ca.SX(TURNS[parts.turn], int(along))))
         remainder.append(_least(_bends(second, h, leaning, leaning), spread**2 / 2, spread**3 / 6))
     e, j = ca.densify(ca.vertcat(*error)), ca.vertcat(*slopes)
-    stretch = 1 + 2 * float(np.linalg.norm(beside))  # the point beside the tool is missed by the turn too
-    b = ca.vertcat(*remainder) + ca.vertcat(tolerance[: len(parts.linear)] * stretch, tolerance[len(parts.linear) :])
+    rho += [ca.sqrt(ca.sumsqr(way))] * along
+    leaning += [False] * along
+    lean = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :])) if parts.turn != "none" else ca.SX(0)
+    lean = ca.if_else(lean < 0.9, lean + lean**3, np.pi)  # the angle whose sine it is at most
+    allowed = tolerance[: len(parts.linear)] + float(np.linalg.norm(beside)) * lean  # a point beside the tool is missed by both
+    b = ca.vertcat(*remainder) + ca.vertcat(allowed, tolerance[len(parts.linear) :])
     weighted = j @ ca.diag(h * h)
     gram = weighted @ j.T + ca.diag(b * b + _TINY)
     factor = Cholesky([[gram[i, k] for k in range(parts.m)] for i in range(parts.m)])
@@ -145,28 +153,31 @@ def box_kernel(arm: Arm, parts: Parts) -> Kernel:
         length = ca.sqrt(ca.sumsqr(e[:k]) + _TINY)
         own = ca.vertcat(e[:k] / length, ca.SX(parts.m - k, 1))
         tests.append(_apart(own, e, j, h, b))
-        first = sum((rho[i] * h[i] for i in range(n)), ca.SX(0))
-        tests.append(length - first - stretch * ca.sqrt(ca.sumsqr(tolerance[:k])))
+        first = sum((rho[i] * h[i] for i in range(size)), ca.SX(0))
+        tests.append(length - first - ca.sqrt(ca.sumsqr(allowed)))
     if missed is not None:
-        lean = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :]))
-        tests.append(ca.cos(ca.fmin(spread + 2 * lean, np.pi)) - missed)
+        tests.append(ca.cos(ca.fmin(spread + lean, np.pi)) - missed)
     inverse = ca.horzcat(*[ca.vertcat(*factor.solve([ca.SX(float(i == k)) for i in range(parts.m)])) for k in range(parts.m)])
     y = weighted.T @ inverse
     middle = -(y @ e)
-    radius = ca.fabs(ca.SX.eye(n) - y @ j) @ h + ca.fabs(y) @ b + ROUNDING
+    radius = ca.fabs(ca.SX.eye(size) - y @ j) @ h + ca.fabs(y) @ b + ROUNDING
     low, high = ca.fmax(middle - radius, -h), ca.fmin(middle + radius, h)
-    half = ca.fmax((high - low) / 2, 0)
-    moves = [h[k] > 0 for k in range(n)]
-    inside = _largest([ca.if_else(moves[k], ca.fabs(middle[k]) + radius[k] - h[k], -1) for k in range(n)])
-    volume = ca.SX(1)
-    for k in range(n):
-        volume *= ca.if_else(moves[k], half[k] / h[k], 1)
-    widths = [(rho[k] + (_LEAN if leaning[k] else 0.0)) * half[k] for k in range(n)]
-    which, widest = ca.SX(0), widths[0]
-    for k in range(1, n):
-        which, widest = ca.if_else(widths[k] > widest, k, which), ca.fmax(widths[k], widest)
     margin = _largest([*tests, *ca.vertsplit(low - high)]) - ROUNDING
-    return Kernel("box of joints", [c, h, p, r, tolerance], [margin, c + (low + high) / 2, half, inside, volume, which, middle, e])
+    half = ca.fmax((high - low) / 2, 0)
+    told = _told(h, half, ca.fabs(middle) + radius, [(rho[k] + _LEAN * leaning[k]) * half[k] for k in range(size)])
+    inputs = [c, h, p, r, tolerance, *([way] * along)]
+    return Kernel("box of joints", inputs, [margin, c + (low + high) / 2, half, *told, middle, e])
+
+
+def _told(h: SX, half: SX, reach: SX, widths: list[SX]) -> tuple[SX, SX, SX]:
+    """Whether what is left is inside, how much of the volume it is, and where it is widest."""
+    inside, volume, which, widest = ca.SX(-1), ca.SX(1), ca.SX(0), widths[0]
+    for k, width in enumerate(widths):
+        moves = h[k] > 0
+        inside = ca.fmax(inside, ca.if_else(moves, reach[k] - h[k], -1))
+        volume *= ca.if_else(moves, half[k] / h[k], 1)
+        which, widest = ca.if_else(width > widest, k, which), ca.fmax(width, widest)
+    return inside, volume, which
 
 
 def turning(arm: Arm, parts: Parts) -> list[bool]:
@@ -246,12 +257,12 @@ def _higher(rho: list[SX], h: SX, turns: list[bool]) -> tuple[SX, SX]:
 
 
 def _bends(second: Callable[[int, int], SX], h: SX, inner: list[bool], outer: list[bool]) -> SX:
-    """What the second derivatives at the centre make of each row: ``second`` of joints k <= l."""
+    """What the second derivatives at the centre make of each row: ``second`` of a joint and one that is no nearer the base."""
     found = ca.SX(0)
-    for l in range(len(outer)):
-        for k in range(l + 1):
-            if inner[k] and outer[l] and (k < l or inner[l]):
-                found += ca.fabs(second(k, l)) * (h[k] * h[l] if k < l else h[l] ** 2 / 2)
+    for i in range(len(outer)):
+        for k in range(i + 1):
+            if inner[k] and outer[i]:
+                found += ca.fabs(second(k, i)) * (h[k] * h[i] if k < i else h[i] ** 2 / 2)
     return found
 
 
@@ -266,15 +277,15 @@ def _turn(parts: Parts, rotation: SX, spin: SX, r: SX) -> tuple[SX, SX, Callable
     if parts.turn == "axis":
         axis, wanted = rotation[:, 2], r[:, :2].T
         moved = ca.horzcat(*[ca.cross(spin[:, k], axis) for k in range(n)])
-        return wanted @ axis, wanted @ moved, lambda k, l: wanted @ ca.cross(spin[:, k], moved[:, l]), ca.dot(axis, r[:, 2])
+        return wanted @ axis, wanted @ moved, lambda k, i: wanted @ ca.cross(spin[:, k], moved[:, i]), ca.dot(axis, r[:, 2])
     value = sum((ca.cross(r[:, i], rotation[:, i]) / 2 for i in range(3)), ca.SX(3, 1))
     across = r @ rotation.T
     turned = across @ spin
     slope = ca.horzcat(*[(ca.trace(across) * spin[:, k] - across.T @ spin[:, k]) / 2 for k in range(n)])
     row = ca.DM(parts.normal).T if parts.turn == "plane" else ca.DM.eye(3)
 
-    def second(k: int, l: int) -> SX:
-        return row @ (ca.cross(turned[:, k], spin[:, l]) / 2 - ca.dot(spin[:, k], spin[:, l]) * value)
+    def second(k: int, i: int) -> SX:
+        return row @ (ca.cross(turned[:, k], spin[:, i]) / 2 - ca.dot(spin[:, k], spin[:, i]) * value)
 
     return row @ value, row @ slope, second, (ca.trace(across) - 1) / 2
 
