@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import label
@@ -209,6 +211,23 @@ def test_a_box_that_is_blocked_holds_nothing_that_is_clear(rng):
     assert blocked.what == "ball0, ball1"
     touching = room(centres, middle) + BALL - 0.5 < -1e-3
     assert (blocked(middle, 0 * half) >= touching).mean() > 0.97, "balls do not fill a link; nearly all that touches is seen"
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_a_box_in_which_the_arm_blocks_itself_holds_nothing_that_is_clear(bodies, rng):
+    """Of capsules, and of bodies that capsules cover, beside fcl."""
+    arm = hf.arms.load("panda")
+    clearance = hf.Clearance.by_default(arm)
+    if not bodies:
+        clearance = hf.Clearance(arm, replace(clearance.capsules, shape=None))
+    blocked = BlockedBoxes(clearance, 0.0)
+    middle = rng.uniform(arm.lower, arm.upper, (3000, 7))
+    half = rng.uniform(0, 0.03, middle.shape)
+    found = blocked(middle, half)
+    assert 20 < found.sum() < 600
+    q = (middle[found, None] + half[found, None] * rng.choice([-1, 0, 1], (1, 4, 7))).reshape(-1, 7)
+    assert not clearance.sign(q).any()
+    assert " & " in blocked.what
 
 
 def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
