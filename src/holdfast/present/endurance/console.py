@@ -25,6 +25,7 @@ def to_dict(e: Endurance) -> dict[str, Any]:
         "task": e.task.name,
         "mode": e.mode,
         "kind": e.kind,
+        "keep": [kept.to_dict() for kept in e.keep],
         "rates": dict(zip(names, e.rates.each, strict=True)),
         "rates_per_second": e.rates.per_second,
         "survival": e.survival,
@@ -138,6 +139,7 @@ def story(e: Endurance) -> Story:
         method=[
             ("Failure", "one joint locks, at a random time, and stays; later locks are not counted"),
             ("Mode", e.mode),
+            *(("Kept before a lock and after it", str(kept)) for kept in e.keep),
             ("Rates", "per second" if e.rates.per_second else "relative"),
             ("Poses", f"{len(e.time)}, evenly spaced in time"),
         ],
