@@ -330,7 +330,7 @@ class Endurance(Result):
         """Why some locks are hardly survived by any motion, of full poses above all that of an elbow."""
         if self.found is None or self.kind == "lower bound":
             return []
-        joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0))
+        joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0) & ~self.survives.all(axis=0))
         lines = []
         for joint, most in zip([self.arm.joints[k] for k in joints], self.found.moved[joints], strict=True):
             far = f" by more than {most:.3g} {joint.unit}" if most > _STILL else ""
