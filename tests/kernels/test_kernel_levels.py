@@ -40,7 +40,7 @@ def fresh(tmp_path, monkeypatch):
 
 
 def test_levels_and_lanes_give_the_same_bits(rng):
-    x, y = long_function(100)
+    x, y = long_function(50)
     program = Program("long", [x], [y])
     inputs = np.ascontiguousarray((rng.normal(size=(64, 9)) * 10 ** rng.uniform(-3, 3, (64, 1))).T)
     inputs[2, 5] = np.nan
