@@ -159,7 +159,7 @@ def tolerant(
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts; or FILE.zip.")] = Path(
         "certificates"
     ),
     plot: PlotOption = None,
