@@ -79,7 +79,7 @@ def test_one_file_holds_all_parts(proof, tmp_path):
     assert (check.tolerant, check.rejected, len(check.parts)) == (1, 0, 4)
     with zipfile.ZipFile(whole) as archive:
         held = {name: archive.read(name) for name in archive.namelist()}
-    first, last = list(held)[0], list(held)[-1]
+    first, last = next(iter(held)), list(held)[-1]
     for name, text, said in (
         (last, None, "cannot be read"),
         (last, held[first], "is not the part"),
