@@ -15,7 +15,7 @@ from scipy.optimize import least_squares
 import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, verifier
-from holdfast.certificates.search import Search
+from holdfast.certificates.target_boxes.search import Search
 from holdfast.certificates.taylor import Chain, Form, Reach
 from holdfast.certificates.tree import undecided
 from holdfast.certificates.verifier import per_cent

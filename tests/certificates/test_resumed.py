@@ -13,9 +13,10 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.certificates import jobs, reach_claim, tolerant_claim
+from holdfast.certificates import reach_claim, tolerant_claim
+from holdfast.certificates.target_boxes import jobs
 from holdfast.errors import InputError, StoreError
-from holdfast.present.certificates.console import standing
+from holdfast.present.certificates.console import state
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 WORDS = ["--range", "1=-1..0.5", "--range", "2=0..1.4", "--range", "3=0..1.4", "--no-check"]
@@ -38,14 +39,12 @@ def whole(claim):
 
 def test_two_processes_find_the_same(claim, whole, tmp_path):
     told, lines = [], []
-    found = hf.certify(
-        claim, halvings=6, workers=2, store=tmp_path, progress=lambda *at: told.append(at), standing=lines.append
-    )
+    found = hf.certify(claim, halvings=6, workers=2, store=tmp_path, progress=lambda *at: told.append(at), state=lines.append)
     assert proofs(found) == proofs(whole)
     assert told[-1] == (40_000, 40_000)
     assert lines[-1].open == 0
     assert lines[-1].proved == pytest.approx(np.mean([float(part.proved) for part in whole.parts]))
-    assert standing(lines[-1]).endswith(f"open 0 %; {whole.nodes:,} boxes")
+    assert state(lines[-1]).endswith(f"open 0 %; {whole.nodes:,} boxes")
     remembered = hf.certify(claim, halvings=6, store=tmp_path)
     assert proofs(remembered) == proofs(whole)
     assert remembered.seconds == found.seconds  # nothing was computed again

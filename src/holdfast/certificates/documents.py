@@ -16,10 +16,10 @@ from holdfast import __version__
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
-from holdfast.certificates.jobs import Found
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
+from holdfast.certificates.target_boxes.jobs import Found
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tree import PROVED
 

@@ -11,14 +11,14 @@ import numpy as np
 from holdfast.arguments import checked
 from holdfast.certificates import documents, structure
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
-from holdfast.certificates.crew import Crew, Stop
-from holdfast.certificates.jobs import Found
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, bounded
 from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
-from holdfast.certificates.tree import Standing, Tell, undecided
+from holdfast.certificates.target_boxes.crew import Crew, Stop
+from holdfast.certificates.target_boxes.jobs import Found
+from holdfast.certificates.tree import SearchState, Tell, undecided
 from holdfast.engine.memory import Memory
 from holdfast.errors import InputError
 from holdfast.notice import Progress, says
@@ -35,7 +35,7 @@ class How(TypedDict, total=False):
     workers: int
     store: str | Path | None
     progress: Progress | None
-    standing: Tell | None
+    state: Tell | None
     stop: Stop
 
 
@@ -60,7 +60,7 @@ def certify(
     workers: int = 1,
     store: str | Path | None = None,
     progress: Progress | None = None,
-    standing: Tell | None = None,
+    state: Tell | None = None,
     stop: Stop = lambda: False,
 ) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero:
     """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
@@ -82,7 +82,7 @@ def certify(
             What is found is the same.
         store: Folder that remembers what is done of such a claim, made if need be: the same call resumes a search that was
             stopped or killed, and ends with the same certificate. None: nothing is remembered.
-        standing: Called with a :class:`Standing`: what is proved, undecided and open.
+        state: Called with a :class:`SearchState`: what is proved, undecided and open.
         progress: Called with what is decided and all, in ten thousandths of the parts' volumes.
         stop: Asked now and then; once it says True, the rest stays undecided.
 
@@ -108,12 +108,12 @@ def certify(
 
     count = len(claim.parts) if isinstance(claim, TolerantClaim) else 1
 
-    def tell(now: Standing) -> None:
+    def tell(now: SearchState) -> None:
         done = int(_FINE * count * (1 - now.open))
         if progress is not None and done:
             progress(done, _FINE * count)
-        if standing is not None:
-            standing(now)
+        if state is not None:
+            state(now)
 
     if not isinstance(claim, ReachClaim | TolerantClaim):
         if workers != 1 or store is not None:

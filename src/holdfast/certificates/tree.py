@@ -15,8 +15,8 @@ Index = NDArray[np.int64]
 PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
 
 
-@dataclass(frozen=True)
-class Standing:
+@dataclass(frozen=True, kw_only=True)
+class SearchState:
     """How far a search has come.
 
     Attributes:
@@ -31,7 +31,7 @@ class Standing:
     nodes: int
 
 
-Tell = Callable[[Standing], None]
+Tell = Callable[[SearchState], None]
 
 
 @dataclass

@@ -9,7 +9,7 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tree import SPLIT, UNDECIDED, Standing, Tell
+from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, Tell
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -66,7 +66,7 @@ class Halving:
             split = ~done & (gain.max(axis=1) > 0)
             closed += float((0.5 ** depth[~split].sum(axis=1)).sum())
             proved += float((0.5 ** depth[done].sum(axis=1)).sum())
-            tell(Standing(proved, closed - proved, 1 - closed, self.tested))
+            tell(SearchState(proved=proved, undecided=closed - proved, open=1 - closed, nodes=self.tested))
             if split.any():
                 waiting.append(self._split(name[split], middle[split], depth[split], half[split], gain[split].argmax(axis=1)))
         return True

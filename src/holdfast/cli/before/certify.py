@@ -48,7 +48,7 @@ from holdfast.cli.options import (
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
-from holdfast.present.certificates.console import standing
+from holdfast.present.certificates.console import state
 from holdfast.present.results import drawn, printed
 
 command = typer.Typer(
@@ -321,7 +321,7 @@ def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None
     """Search, write, check, draw, print."""
     bar = progress_bar(as_json, "ten-thousandths")
     with stopping("") as stop, bar as progress:
-        proof = hf.certify(claim, **how, progress=progress, standing=lambda now: bar.says(standing(now)), stop=stop)
+        proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
     file = proof.write(out)
     found = hf.check_certificate(file) if check and not stop() else None
     printed(found or proof, as_json, [file, *drawn(proof, plot)])

@@ -11,7 +11,7 @@ from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
-from holdfast.certificates.tree import Standing
+from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier import per_cent
 from holdfast.present import results
 from holdfast.present.certificates import slices
@@ -46,7 +46,7 @@ def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
     return said | ({"parts": {name: to_dict(part) for name, part in parts.items()}} if parts else {})
 
 
-def standing(now: Standing) -> str:
+def state(now: SearchState) -> str:
     """One line of how far a search has come: shares are never rounded up to the whole or down to nothing."""
     shares = [f"proved {per_cent(Fraction(min(now.proved, 1.0)))}", "refuted 0 %"]
     rest = [

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ROWS, ReachClaim
-from holdfast.certificates.search import Search
+from holdfast.certificates.target_boxes.search import Search
 from holdfast.certificates.taylor import Reach
-from holdfast.certificates.tree import SPLIT, Standing, undecided
+from holdfast.certificates.tree import SPLIT, SearchState, undecided
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -68,10 +68,10 @@ class Found:
             )
 
     @property
-    def standing(self) -> Standing:
+    def state(self) -> SearchState:
         """Of a search that has ended."""
         rest = float(undecided(self.tree))
-        return Standing(1 - rest, rest, 0.0, self.nodes)
+        return SearchState(proved=1 - rest, undecided=rest, open=0.0, nodes=self.nodes)
 
     def stored(self) -> Parts:
         """As a memory keeps it."""
@@ -164,11 +164,11 @@ class Running:
         self._seconds += perf_counter() - began
 
     @property
-    def standing(self) -> Standing:
+    def state(self) -> SearchState:
         """How far it has come, as shares of its box."""
         search = self._search
         left = min(max(search.open, 0.0), 1.0)
-        return Standing(search.proved, max(1 - left - search.proved, 0.0), left, search.nodes)
+        return SearchState(proved=search.proved, undecided=max(1 - left - search.proved, 0.0), open=left, nodes=search.nodes)
 
     def found(self) -> Found:
         """What is found so far."""

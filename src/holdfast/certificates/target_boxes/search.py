@@ -9,7 +9,7 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.pool import Pool, stepped
+from holdfast.certificates.target_boxes.pool import Pool, stepped
 from holdfast.certificates.taylor import UNIT, Form, Reach
 from holdfast.certificates.tree import Cells, Tree
 

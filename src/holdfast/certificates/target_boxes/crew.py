@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from holdfast.certificates.claims import ReachClaim
-from holdfast.certificates.jobs import Found, Job, Running, joined
-from holdfast.certificates.tree import Standing, Tell
+from holdfast.certificates.target_boxes.jobs import Found, Job, Running, joined
+from holdfast.certificates.tree import SearchState, Tell
 from holdfast.engine.memory import Memory
 from holdfast.errors import HoldfastError
 
@@ -43,7 +43,7 @@ class Crew:
     ) -> None:
         self._tell, self._memory = tell, memory
         self._whole = [Job(claim, halvings, seed, part) for part, claim in enumerate(claims)]
-        self._found, self._standing = dict[str, Found](), dict[str, tuple[float, Standing]]()
+        self._found, self._states = dict[str, Found](), dict[str, tuple[float, SearchState]]()
         self._open = list[Job]()
         for job in self._whole:
             self._take(job)
@@ -65,14 +65,15 @@ class Crew:
             for one in job.parted(found.cut):
                 self._take(one)
         else:
-            self._hear(job, found.standing)
+            self._hear(job, found.state)
 
-    def _hear(self, job: Job, standing: Standing) -> None:
-        self._standing[job.name] = job.share, standing
-        shares = np.array([[share * s.proved, share * s.undecided, s.nodes] for share, s in self._standing.values()])
+    def _hear(self, job: Job, state: SearchState) -> None:
+        self._states[job.name] = job.share, state
+        shares = np.array([[share * s.proved, share * s.undecided, s.nodes] for share, s in self._states.values()])
         proved, undecided, nodes = shares.sum(axis=0)
         parts = len(self._whole)
-        self._tell(Standing(proved / parts, undecided / parts, max(1 - (proved + undecided) / parts, 0.0), int(nodes)))
+        left = max(1 - (proved + undecided) / parts, 0.0)
+        self._tell(SearchState(proved=proved / parts, undecided=undecided / parts, open=left, nodes=int(nodes)))
 
     def found(self) -> list[Found]:
         """Of each part; what was not looked at is undecided."""
@@ -103,7 +104,7 @@ class Crew:
                 now = monotonic()
                 until = now + min((end - now) / left, turn)
                 work = one.begun(until) if isinstance(one, Job) else one
-                work.run(until, stop, lambda work=work: self._hear(work.job, work.standing))  # type: ignore[misc]
+                work.run(until, stop, lambda work=work: self._hear(work.job, work.state))  # type: ignore[misc]
                 if isinstance(one, Job):
                     running.append(work)
                 if work.finished:
@@ -138,9 +139,9 @@ class Crew:
                         found.need_room()
                         self._keep(working.pop(done), found)
                     while not news.empty():
-                        name, standing = news.get()
+                        name, state = news.get()
                         if name not in self._found:
-                            self._hear(names[name], standing)
+                            self._hear(names[name], state)
             except BrokenProcessPool as error:
                 raise HoldfastError(
                     "a process of the search ended, perhaps for want of memory; what is done is kept with a store, and fewer "
@@ -179,7 +180,7 @@ def _done(job: Job, until: float) -> Found:
     def tell() -> None:
         if monotonic() > told[0] + _OFTEN:
             told[0] = monotonic()
-            _here["news"].put((job.name, running.standing))
+            _here["news"].put((job.name, running.state))
 
     if not running.finished and not running.found().too_many:
         running.run(until, _here["halt"].is_set, tell)
