@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from holdfast.caching import cached_property
 from holdfast.ceilings.closed_forms import CLOSED_FORMS
 from holdfast.ceilings.frames import known
+from holdfast.ceilings.minor_programmes import bounds_by_arrangement
 from holdfast.ceilings.minors import lack_of_orthonormality, worst_case
 from holdfast.ceilings.theorems import THEOREMS, Bound, proven
 from holdfast.errors import InputError
@@ -134,12 +135,19 @@ class Ceiling(Result):
             lines.append(f"the best that is known is {self.best_known:.10g}{form}; the bound is {above} above it")
         return lines
 
-    def verify(self) -> Ceiling:
+    def verify(self, *, proof: bool = False) -> Ceiling:
         """Itself, after the stored null space was measured anew by singular values of its rows, and held against the bound.
 
+        Args:
+            proof: Also replay the certificates of a bound by R4 in ball arithmetic: seconds, minutes for nine joints.
+
         Raises:
-            InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong.
+            InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong; or the
+                certificates prove less than what is said.
+            ImportError: The proof needs python-flint (``pip install "holdfast[certify]"``).
         """
+        if proof and self.bound_by == "R4" and (least := max(bounds_by_arrangement(self.n))) > self.bound:
+            raise InputError(f"the certificates prove {least:.12g} and not {self.bound:.12g}")
         if self.null_space is None:
             return self
         lack, value = lack_of_orthonormality(self.null_space), worst_case(self.null_space, self.k)

@@ -42,7 +42,7 @@ def command(
         raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
     found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
     if search is None:
-        printed(found.verify() if verify else found, json_)
+        printed(found.verify(proof=True) if verify else found, json_)
         return
     with working("searching") as now:
         better = hf.ceilings.search(
