@@ -1,5 +1,6 @@
 from holdfast import arms as arms
 from holdfast import bench as bench
+from holdfast import ceilings as ceilings
 from holdfast import cell as cell
 from holdfast import certificates as certificates
 from holdfast import control as control

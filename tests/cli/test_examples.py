@@ -59,7 +59,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
-QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "free-swing"}
+QUICK = {"arms", "ceiling", "describe", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {
     "certify reach",
     "certify ceiling",

@@ -34,6 +34,7 @@ RESULTS = named(
         "FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
         "Workspace",
         "bench": "FailActive",
+        "ceilings": "Ceiling CeilingSearch CeilingTable",
         "certificates": "ManipulabilityBound CertificateCheck Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
         "engine": "Merged Study Verification",

@@ -33,6 +33,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "cell": "start.cell",
     "report": "start.assess:report",
     "index": "before.index",
+    "ceiling": "before.ceiling",
     "susceptibility": "before.susceptibility",
     "optimise": "before.optimise",
     "follow": "before.follow",
