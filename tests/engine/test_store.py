@@ -267,7 +267,7 @@ DAMAGED = {
     "a list": lambda text: "[1, 2]",
     "a number": lambda text: "3",
     "other format": lambda text: text.replace("holdfast-run", "someone-else"),
-    "other version": lambda text: text.replace('"version": 2', '"version": 3'),
+    "other version": lambda text: text.replace('"version": 3', '"version": 4'),
     "nested too deep": lambda text: "[" * 100_000,
 }
 

@@ -21,7 +21,6 @@ from holdfast.kernels import llvm_backend
 _MAGIC = b"holdfast kernel 1\n"
 _LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
 _written: dict[Path, int] = {}  # bytes that this process added to each folder since it last looked at all of it
-_TRANSLATION = ("llvm_ir.py", "llvm_backend.py", "llvm_arithmetic.py")  # a kernel made by other code is another kernel
 
 
 def folder() -> Path | None:
@@ -46,7 +45,8 @@ def _ours(found: os.stat_result) -> bool:
 @lru_cache(maxsize=1)
 def _machine() -> str:
     here = llvm_backend.host()
-    code = hashlib.sha256(b"".join(Path(__file__).with_name(name).read_bytes() for name in _TRANSLATION)).hexdigest()
+    # A kernel made by other code is another kernel.
+    code = hashlib.sha256(b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("llvm_*.py")))).hexdigest()
     return "|".join([code, llvm_backend.version(), here.cpu, here.features, repr(here.machine)])
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from holdfast.errors import KernelError
 from holdfast.kernels.llvm_arithmetic import Machine
-from holdfast.kernels.llvm_ir import LIBRARY, NAME, emit
+from holdfast.kernels.llvm_ir import NAME, emit
 from holdfast.kernels.program import Program
 
 LEVELS = (0, 1)
@@ -55,9 +55,6 @@ def _llvm() -> Any:
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    library = ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None)
-    for name in LIBRARY:
-        binding.add_symbol(name, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
     return binding
 
 
