@@ -285,8 +285,8 @@ def test_a_damaged_run_file_is_a_sentence(how, folder):
         message = sentence(caught)
         assert str(folder) in message
         if how == "other version":
-            assert "format 3" in message
-            assert "formats up to 2" in message
+            assert "format 4" in message
+            assert "formats up to 3" in message
     assert snapshot(folder) == before
 
 
