@@ -10,8 +10,8 @@ import pytest
 from flint import arb, ctx
 
 from holdfast.kernels import Kernel, Program
-from holdfast.kernels.llvm_arithmetic import Machine
-from holdfast.kernels.llvm_backend import Code, compile_program, host
+from holdfast.kernels.llvm.arithmetic import Machine
+from holdfast.kernels.llvm.machine_code import Code, compile_program, host
 
 MACHINES = [pytest.param(True, id="fused"), pytest.param(False, id="unfused")]
 

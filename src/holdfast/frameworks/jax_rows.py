@@ -29,8 +29,7 @@ def wrapped(function: RowFunction) -> Callable[..., JaxArray]:
         made: list[JaxArray] = jax.pure_callback(on_processor, shapes, *arrays, vmap_method="broadcast_all")
         return made
 
-    @jax.custom_jvp
-    def value(*arrays: JaxArray) -> JaxArray:
+    def plain(*arrays: JaxArray) -> JaxArray:
         return asked(function.value, [tail], arrays)[0]
 
     def with_tangent(primals: tuple[JaxArray, ...], tangents: tuple[JaxArray, ...]) -> tuple[JaxArray, JaxArray]:
@@ -39,6 +38,7 @@ def wrapped(function: RowFunction) -> Callable[..., JaxArray]:
         along = [(s @ t[..., None])[..., 0] if tail else (s * t).sum(-1) for s, t in zip(slopes, tangents, strict=True)]
         return value(*primals), sum(along[1:], start=along[0])
 
+    value = jax.custom_jvp(plain)
     value.defjvp(with_tangent)
 
     def call(*inputs: JaxArray) -> JaxArray:

@@ -16,7 +16,7 @@ import tempfile
 from functools import lru_cache
 from pathlib import Path
 
-from holdfast.kernels import llvm_backend
+from holdfast.kernels.llvm import machine_code
 
 _MAGIC = b"holdfast kernel 1\n"
 _LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
@@ -44,10 +44,12 @@ def _ours(found: os.stat_result) -> bool:
 
 @lru_cache(maxsize=1)
 def _machine() -> str:
-    here = llvm_backend.host()
+    here = machine_code.host()
     # A kernel made by other code is another kernel.
-    code = hashlib.sha256(b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("llvm_*.py")))).hexdigest()
-    return "|".join([code, llvm_backend.version(), here.cpu, here.features, repr(here.machine)])
+    code = hashlib.sha256(
+        b"".join(file.read_bytes() for file in sorted(Path(__file__).with_name("llvm").glob("*.py")))
+    ).hexdigest()
+    return "|".join([code, machine_code.version(), here.cpu, here.features, repr(here.machine)])
 
 
 def key(digest: str, *what: object) -> str:

@@ -14,8 +14,8 @@ from collections.abc import Callable
 import casadi as ca
 
 from holdfast.errors import KernelError
-from holdfast.kernels.llvm_arithmetic import Arithmetic, Machine, sincos
-from holdfast.kernels.llvm_functions import FUNCTIONS
+from holdfast.kernels.llvm.arithmetic import Arithmetic, Machine, sincos
+from holdfast.kernels.llvm.functions import FUNCTIONS
 from holdfast.kernels.program import OP_NAMES, Program
 
 NAME = "rows"  # of the function

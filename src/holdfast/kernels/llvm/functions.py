@@ -18,7 +18,7 @@ from collections.abc import Callable
 
 import casadi as ca
 
-from holdfast.kernels.llvm_arithmetic import ROUND, Arithmetic, polynomial
+from holdfast.kernels.llvm.arithmetic import ROUND, Arithmetic, polynomial
 
 
 def _numbers(text: str) -> tuple[float, ...]:
