@@ -61,7 +61,7 @@ def test_memory_is_shared_both_ways(rng):
         seen.append(rows.sum(axis=1))
         return seen[-1]
 
-    f = RowFunction("sum", (3,), None, value, lambda rows: (np.ones_like(rows),))
+    f = RowFunction(name="sum", sizes=(3,), size=None, value=value, slopes=lambda rows: (np.ones_like(rows),))
     from holdfast.frameworks.torch_rows import wrapped
 
     x = tensor(rng.normal(size=(4, 5, 3)))

@@ -145,7 +145,13 @@ class Law(Shown, Labelled, Differentiable, Steps):
 
     def row_function(self) -> RowFunction:
         """See :meth:`holdfast.frameworks.Differentiable.row_function`; its slopes are those of the rates by q and by v."""
-        return RowFunction(self.name, (self.arm.n, self.task.m), self.arm.n, self.velocity, self._slopes_kernel)
+        return RowFunction(
+            name=self.name,
+            sizes=(self.arm.n, self.task.m),
+            size=self.arm.n,
+            value=self.velocity,
+            slopes=self._slopes_kernel,
+        )
 
     def _step_kernel(self) -> tuple[Kernel, int]:
         return self._velocity_kernel, self.arm.n

@@ -17,7 +17,7 @@ from holdfast.errors import HoldfastError, InputError
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class RowFunction:
     """A function of batches whose rows have nothing to do with each other.
 

@@ -73,7 +73,7 @@ class Objective(Shown, Differentiable, ABC):
 
     def row_function(self) -> RowFunction:
         """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
-        return RowFunction(self.name, (self.arm.n,), None, self, lambda q: (self.gradient(q),))
+        return RowFunction(name=self.name, sizes=(self.arm.n,), size=None, value=self, slopes=lambda q: (self.gradient(q),))
 
     @abstractmethod
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:

@@ -46,9 +46,8 @@ def _ours(found: os.stat_result) -> bool:
 def _machine() -> str:
     here = machine_code.host()
     # A kernel made by other code is another kernel.
-    code = hashlib.sha256(
-        b"".join(file.read_bytes() for file in sorted(Path(__file__).with_name("llvm").glob("*.py")))
-    ).hexdigest()
+    sources = [file for folder in ("llvm", "gpu") for file in sorted(Path(__file__).with_name(folder).glob("*.py"))]
+    code = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()
     return "|".join([code, machine_code.version(), here.cpu, here.features, repr(here.machine)])
 
 

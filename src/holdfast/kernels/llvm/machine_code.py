@@ -83,9 +83,12 @@ def compile_program(program: Program, level: int, machine: Machine | None = None
     Raises:
         KernelError: An operation without translation.
     """
-    llvm = _llvm()
-    module = llvm.parse_assembly(emit(program, machine or host().machine))
-    return bytes(_target(level).emit_object(module))
+    return object_code(emit(program, machine or host().machine), level)
+
+
+def object_code(text: str, level: int) -> bytes:
+    """Object code of a module in LLVM's language."""
+    return bytes(_target(level).emit_object(_llvm().parse_assembly(text)))
 
 
 class Code:

@@ -32,10 +32,10 @@ def emit(program: Program, machine: Machine) -> str:
     Raises:
         KernelError: The program uses an operation that has no translation; the message names it.
     """
-    return _Emitter(program, machine).text()
+    return Emitter(program, machine).text()
 
 
-class _Emitter(Arithmetic):
+class Emitter(Arithmetic):
     """One program on its way."""
 
     def __init__(self, program: Program, machine: Machine) -> None:
@@ -50,8 +50,9 @@ class _Emitter(Arithmetic):
     # ---- frame -------------------------------------------------------------------------------------------------
 
     def text(self) -> str:
-        guard = self._guard()
-        self._body(guard)
+        """The whole function."""
+        guard = self.guard()
+        self.body(guard)
         lanes = self.machine.lanes
         head, body = "\n".join(sorted(self.declared)), "\n".join(self.lines)
         return f"""{head}
@@ -81,7 +82,7 @@ ret void
     def _store(self, k: int, value: str) -> None:
         self.lines.append(f"store {self.type} {value}, ptr {self._place('%out', k)}, align 8")
 
-    def _guard(self) -> str:
+    def guard(self) -> str:
         """Zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
         total = zero = self.number(0.0)
         for k in range(self.program.n_in):
@@ -90,7 +91,8 @@ ret void
 
     # ---- instructions ------------------------------------------------------------------------------------------
 
-    def _body(self, guard: str) -> None:
+    def body(self, guard: str) -> None:
+        """All instructions; ``guard`` is added to each output."""
         work: dict[int, str] = {}
         alone = _used_once_in_a_sum(self.program)
         divisors = self.program.shared_divisors()
@@ -213,7 +215,7 @@ ret void
 
 
 # What takes one instruction or few. CasADi differentiates |x| into sign(x).
-_TABLE: dict[int, Callable[[_Emitter, str, str], str]] = {
+_TABLE: dict[int, Callable[[Emitter, str, str], str]] = {
     ca.OP_ASSIGN: lambda e, a, b: a,
     ca.OP_DIV: lambda e, a, b: e.binary("fdiv", a, b),
     ca.OP_NEG: lambda e, a, b: e.negative(a),
