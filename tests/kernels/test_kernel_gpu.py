@@ -21,7 +21,7 @@ from holdfast.kernels.gpu import driver, launch, ptx
 def gpu(monkeypatch):
     fake = FakeDriver()
     monkeypatch.setattr(driver, "_bindings", lambda: fake)
-    monkeypatch.setattr(launch, "ptx", fake.ptx)
+    monkeypatch.setattr(launch, "ptx_text", fake.ptx)
     driver.device.cache_clear()
     yield fake
     kernels.set_backend(None)
@@ -199,7 +199,7 @@ def test_devices_and_what_is_wrong_with_them(gpu):
 
 def test_an_old_device_is_a_sentence():
     with pytest.raises(KernelError, match=r"compute capability 6\.1; holdfast needs 7\.0"):
-        ptx.ptx(Program("x", [x := ca.SX.sym("x")], [x]), 61)
+        ptx.ptx_text(Program("x", [x := ca.SX.sym("x")], [x]), 61)
 
 
 @pytest.mark.parametrize("missing", ["bindings", "driver", "device"])

@@ -151,6 +151,7 @@ class Law(Shown, Labelled, Differentiable, Steps):
             size=self.arm.n,
             value=self.velocity,
             slopes=self._slopes_kernel,
+            kernels=(self._velocity_kernel, self._slopes_kernel),
         )
 
     def _step_kernel(self) -> tuple[Kernel, int]:

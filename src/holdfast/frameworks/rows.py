@@ -27,6 +27,8 @@ class RowFunction:
         size: Numbers in a row of the result; None if it is one number, without an axis of its own.
         value: Inputs (N, size) each to results (N,) or (N, size).
         slopes: Inputs to the derivatives of a row's results by each input, (N, k) or (N, size, k) each.
+        kernels: ``value`` and ``slopes`` as kernels, the value as the first result: for arrays on a GPU. None: there is no one
+            kernel, and such arrays go through the processor.
     """
 
     name: str
@@ -34,6 +36,7 @@ class RowFunction:
     size: int | None
     value: Callable[..., Array]
     slopes: Callable[..., tuple[Array, ...]]
+    kernels: tuple[Any, Any] | None = None
 
     def leading(self, shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
         """The axes before the last one, which all inputs share or are repeated along.
@@ -72,9 +75,10 @@ class Differentiable:
         """Itself as a function of PyTorch tensors, for ``backward``, ``torch.func.grad``, ``jacrev``, ``jvp`` and ``vmap``.
 
         Inputs are tensors (..., n), and (..., m) for a law's velocity; axes before the last are batches and are broadcast.
-        The result, (...) or (..., n), has their type and device; the computation is done in double precision on the
-        processor, by views of the memory of double-precision tensors there, without a copy. First derivatives are exact,
-        those of :meth:`gradient` or of the law's graph; there are no second ones. A row with NaN gives NaN.
+        The result, (...) or (..., n), has their type and device. On the processor double-precision tensors are used where they
+        are, without a copy, as are those on an NVIDIA GPU by laws and susceptibilities (``holdfast[gpu]``); an index on a GPU
+        goes through the processor. First derivatives are exact, those of :meth:`gradient` or of the law's graph; there are
+        no second ones. A row with NaN gives NaN.
 
         Raises:
             HoldfastError: PyTorch is not installed (``holdfast[torch]``). When called for second derivatives.

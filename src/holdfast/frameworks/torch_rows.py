@@ -31,8 +31,20 @@ def _on_processor(function: RowFunction, what: Callable[..., Any], tensors: tupl
     first = tensors[0]
     if first.dtype == torch.float64 and first.device.type == "cpu":
         return [torch.from_numpy(out) for out in function.on_rows(what, [x.numpy(force=True) for x in tensors])]
+    if first.device.type == "cuda" and function.kernels is not None:
+        return _on_gpu(function, function.kernels[what is function.slopes], tensors)
     arrays = [x.to(torch.float64).numpy(force=True) for x in tensors]
     return [torch.from_numpy(out).to(device=first.device, dtype=first.dtype) for out in function.on_rows(what, arrays)]
+
+
+def _on_gpu(function: RowFunction, kernel: Any, tensors: tuple[Tensor, ...]) -> list[Tensor]:
+    """Results of a kernel on the GPU of the tensors, on PyTorch's stream: shared memory, and nothing to wait for."""
+    first = tensors[0]
+    rows = [x.detach().to(torch.float64).reshape(-1, k) for x, k in zip(tensors, function.sizes, strict=True)]
+    stream = torch.cuda.current_stream(first.device).cuda_stream
+    found = kernel.on(f"cuda:{first.device.index}").exchange(*rows, stream=stream)
+    made = [torch.from_dlpack(out) for out in (found if isinstance(found, tuple) else (found,))]
+    return [out.reshape(*first.shape[:-1], *out.shape[1:]).to(first.dtype) for out in made]
 
 
 def _applied(kind: Any, function: RowFunction, tensors: tuple[Tensor, ...]) -> Any:

@@ -104,8 +104,17 @@ class Kernel:
         rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
         self._chunk = max(self.lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
         self._scratch = threading.local()
+        self._elsewhere: dict[str, Kernel] = {}
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
+
+    def on(self, backend: str) -> Kernel:
+        """The same kernel on another backend, made once."""
+        made = self._elsewhere.get(backend)
+        if made is None:
+            made = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
+            made._take(self.program, backend)
+        return made
 
     @property
     def made_of(self) -> str | None:

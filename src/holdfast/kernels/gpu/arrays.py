@@ -43,15 +43,16 @@ _pointer_of = ctypes.PYFUNCTYPE(c_void_p, c_void_p, ctypes.c_char_p)(("PyCapsule
 _lent: dict[int, tuple[Any, ...]] = {}  # what others hold, by the address of its description
 
 
-@ctypes.CFUNCTYPE(None, c_void_p)
-def _release(address: int) -> None:
+def _forget(address: int) -> None:
     _lent.pop(address, None)
 
 
-@ctypes.PYFUNCTYPE(None, c_void_p)
-def _capsule_ends(capsule: int) -> None:
-    if _is_valid(capsule, _NAME):  # nobody took what is in it
+def _forget_untaken(capsule: int) -> None:
+    if _is_valid(capsule, _NAME):
         _lent.pop(_pointer_of(capsule, _NAME), None)
+
+
+_release, _capsule_ends = ctypes.CFUNCTYPE(None, c_void_p)(_forget), ctypes.PYFUNCTYPE(None, c_void_p)(_forget_untaken)
 
 
 class DeviceArray:
@@ -120,7 +121,8 @@ class Lent:
         if [stride for _, stride in inner] != expected:
             raise InputError(f"an input on the GPU has strides {strides}, whose rows have gaps; make it contiguous")
         self.pointer = tensor.data + tensor.byte_offset
-        self.rows, self.row = (shape[0], strides[0]) if batch else (None, 0)
+        self.rows: int | None = shape[0] if batch else None
+        self.row: int = strides[0] if batch else 0
 
 
 def _contiguous(shape: tuple[int, ...]) -> tuple[int, ...]:

@@ -12,7 +12,7 @@ from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.kernels.gpu.arrays import DeviceArray, Lent
 from holdfast.kernels.gpu.driver import LEGACY_STREAM, Device, Double, Memory, Pointer, Whole, device
-from holdfast.kernels.gpu.ptx import ptx
+from holdfast.kernels.gpu.ptx import ptx_text
 from holdfast.kernels.llvm.translation import NAME
 from holdfast.kernels.program import Program
 
@@ -30,12 +30,12 @@ class OnDevice:
         ordinal: Of the device.
 
     Raises:
-        KernelError: See :class:`holdfast.kernels.gpu.driver.Device` and :func:`holdfast.kernels.gpu.ptx.ptx`.
+        KernelError: See :class:`holdfast.kernels.gpu.driver.Device` and :func:`holdfast.kernels.gpu.ptx.ptx_text`.
     """
 
     def __init__(self, program: Program, ordinal: int) -> None:
         self.program, self.device = program, device(ordinal)
-        self._function = self.device.function(ptx(program, self.device.capability), NAME)
+        self._function = self.device.function(ptx_text(program, self.device.capability), NAME)
         self._sizes = [rows * columns for rows, columns in program.input_shapes]
 
     # ---- arrays of the host ------------------------------------------------------------------------------------
@@ -102,7 +102,7 @@ class OnDevice:
 
     @cached_property
     def _steps(self) -> Any:
-        return self.device.function(ptx(self.program, self.device.capability, state=self.program.n_out - 1), NAME)
+        return self.device.function(ptx_text(self.program, self.device.capability, state=self.program.n_out - 1), NAME)
 
     def iterate(
         self, state: Array, parameters: Array, tolerance: float, *, most: int, ahead: bool, ended: Callable[[int, int], None]

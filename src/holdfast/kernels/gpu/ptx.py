@@ -24,7 +24,7 @@ _TRIPLE = "nvptx64-nvidia-cuda"
 _READS = {name: f"llvm.nvvm.read.ptx.sreg.{name}.x" for name in ("tid", "ntid", "ctaid", "nctaid")}
 
 
-def ptx(program: Program, capability: int, *, state: int | None = None) -> bytes:
+def ptx_text(program: Program, capability: int, *, state: int | None = None) -> bytes:
     """Text of a kernel for devices of a compute capability (90 of 9.0), from the cache where it is there.
 
     Args:
