@@ -59,6 +59,7 @@ from holdfast.errors import StoreError as StoreError
 from holdfast.errors import TaskError as TaskError
 from holdfast.failures import Degraded as Degraded
 from holdfast.indices import susceptibility as susceptibility
+from holdfast.kernels import set_backend as set_backend
 from holdfast.kernels import set_threads as set_threads
 from holdfast.motion import Trajectory as Trajectory
 from holdfast.motion import follow as follow
