@@ -59,6 +59,7 @@ VALUES = named(
         "endurance": "Approach Compared Found Injection VelocityJump",
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
+        "faults": "Feasibility",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
         "kernels": "LoopResult",

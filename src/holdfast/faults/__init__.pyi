@@ -3,6 +3,9 @@ from holdfast.faults.entry import KINDS as KINDS
 from holdfast.faults.entry import Fault as Fault
 from holdfast.faults.events import FaultEvent as FaultEvent
 from holdfast.faults.events import FaultEvents as FaultEvents
+from holdfast.faults.feasibility import Feasibility as Feasibility
+from holdfast.faults.feasibility import feasible as feasible
+from holdfast.faults.injector import FaultInjector as FaultInjector
 from holdfast.faults.kinds import command_dropout as command_dropout
 from holdfast.faults.kinds import friction as friction
 from holdfast.faults.kinds import limp as limp
@@ -17,3 +20,4 @@ from holdfast.faults.kinds import slipping_clutch as slipping_clutch
 from holdfast.faults.kinds import weak as weak
 from holdfast.faults.scheme import Faults as Faults
 from holdfast.faults.scheme import load as load
+from holdfast.faults.wrapper import FaultWrapper as FaultWrapper
