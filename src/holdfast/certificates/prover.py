@@ -19,6 +19,9 @@ from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.search import Search
 from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.taylor import Reach
+from holdfast.certificates.tool_paths import proof as motions
+from holdfast.certificates.tool_paths.claims import PathClaim
+from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.errors import InputError
 from holdfast.notice import Progress, says
 
@@ -97,28 +100,31 @@ def certify(claim: OutOfReachClaim, **how: Unpack[How]) -> Refutation: ...
 def certify(claim: BoundClaim, **how: Unpack[How]) -> ManipulabilityBound: ...
 @overload
 def certify(claim: StructuralZeroClaim, **how: Unpack[How]) -> StructuralZero: ...
+@overload
+def certify(claim: PathClaim, **how: Unpack[How]) -> PathProof: ...
 @checked
 @says("searching for a proof")
 def certify(
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
     *,
     halvings: int | None = None,
     time_limit: float | None = None,
     seed: int = 0,
     progress: Progress | None = None,
     stop: Stop = lambda: False,
-) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero:
+) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero | PathProof:
     """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
 
     That nothing of a box is reached is proved by halving the box of configurations with that of the targets, until distances
     tell each of them apart; or refuted by a configuration that is found in it. A ceiling of relative manipulability is proved
     by a wrench for each part of the box of configurations, a floor by a motion. A structural zero needs no search: axes meet,
-    or they do not.
+    or they do not. That a path is finished is proved by cells of it behind each interval of lock instants, glued to each other.
 
     Args:
         claim: From :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
             :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim`,
-            :func:`holdfast.certificates.floor_claim` or :func:`holdfast.certificates.structural_zero_claim`.
+            :func:`holdfast.certificates.floor_claim`, :func:`holdfast.certificates.structural_zero_claim` or
+            :func:`holdfast.certificates.path_claim`.
         halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16.
         time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
             one does not need the others get. Without it the same seed gives the same certificate.
@@ -130,7 +136,7 @@ def certify(
         A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
         what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling or floor a
         :class:`holdfast.certificates.ManipulabilityBound`, of a structural zero a
-        :class:`holdfast.certificates.StructuralZero`; found by the prover and not yet verified. Its file is
+        :class:`holdfast.certificates.StructuralZero`, of a path a :class:`holdfast.certificates.PathProof`; found by the prover and not yet verified. Its file is
         checked by :func:`check_certificate`, or without holdfast; see the explanation of certificates.
 
     Raises:
@@ -150,6 +156,8 @@ def certify(
 
     if isinstance(claim, OutOfReachClaim):
         return refuted(claim, halvings, seed, end, stop, tell)
+    if isinstance(claim, PathClaim):
+        return motions.proved(claim, end, stop, tell)
     if isinstance(claim, StructuralZeroClaim):
         return structure.proved(claim)
     if isinstance(claim, BoundClaim):

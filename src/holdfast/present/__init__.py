@@ -35,6 +35,7 @@ PRESENTERS = {
     "Optima": ("solvers.console", "solvers.console"),
     "Orbit": ("equilibria.orbit", ""),
     "Path": ("paths.path", ""),
+    "PathProof": ("certificates.path_page", "certificates.path_page"),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("recovery.console", "recovery.motion"),
     "Proof": ("certificates.console", "certificates.slices"),
