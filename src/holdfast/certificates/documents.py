@@ -20,6 +20,7 @@ from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.tool_paths import forms
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import Slab
 from holdfast.certificates.tree import PROVED, Tree
@@ -125,7 +126,7 @@ def path(claim: PathClaim, parts: Sequence[_Locked]) -> Document:
     for part in parts:
         numbers = [x for slab in part.slabs for x in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
         centres = np.array([q for slab in part.slabs for q in slab.centres]).reshape(-1, claim.arm.n)
-        rows = np.round(centres / UNIT).astype("<i4")
+        rows = np.round(centres / forms.UNIT).astype("<i4")
         rows[:, [part.joint, *part.followers]] = 0
         kept = {"joint": part.joint, "followers": list(part.followers), "proved": verifier.paths.text(part.proved)}
         locks.append(kept | {"cells": _packed(np.array(numbers, "<i8").tobytes()), "centres": _packed(rows.tobytes())})
@@ -138,6 +139,7 @@ def path(claim: PathClaim, parts: Sequence[_Locked]) -> Document:
             "tube": _hexes(claim.tube),
             "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
             "during": list(claim.during),
+            "unit": forms.UNIT.hex(),
             "locks": locks,
             "volumes": {key: verifier.paths.text(part) for key, part in volumes.items()},
         }

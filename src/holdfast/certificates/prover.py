@@ -125,7 +125,8 @@ def certify(
             :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim`,
             :func:`holdfast.certificates.floor_claim`, :func:`holdfast.certificates.structural_zero_claim` or
             :func:`holdfast.certificates.path_claim`.
-        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16.
+        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16,
+            of lock instants 6: these are halved within a segment, at most 13 times.
         time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
             one does not need the others get. Without it the same seed gives the same certificate.
         seed: Of all random draws.
@@ -136,14 +137,15 @@ def certify(
         A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
         what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling or floor a
         :class:`holdfast.certificates.ManipulabilityBound`, of a structural zero a
-        :class:`holdfast.certificates.StructuralZero`, of a path a :class:`holdfast.certificates.PathProof`; found by the prover and not yet verified. Its file is
-        checked by :func:`check_certificate`, or without holdfast; see the explanation of certificates.
+        :class:`holdfast.certificates.StructuralZero`, of a path a :class:`holdfast.certificates.PathProof`; found by the
+        prover and not yet verified. Its file is checked by :func:`check_certificate`, or without holdfast; see the explanation
+        of certificates.
 
     Raises:
         InputError: A number out of range, or a box that would take more than 2^24 cells.
     """
     if halvings is None:
-        halvings = 16 if isinstance(claim, OutOfReachClaim | BoundClaim) else 8
+        halvings = 16 if isinstance(claim, OutOfReachClaim | BoundClaim) else 6 if isinstance(claim, PathClaim) else 8
     if not 0 <= halvings <= 20:
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
@@ -157,7 +159,7 @@ def certify(
     if isinstance(claim, OutOfReachClaim):
         return refuted(claim, halvings, seed, end, stop, tell)
     if isinstance(claim, PathClaim):
-        return motions.proved(claim, end, stop, tell)
+        return motions.proved(claim, halvings, end, stop, tell)
     if isinstance(claim, StructuralZeroClaim):
         return structure.proved(claim)
     if isinstance(claim, BoundClaim):

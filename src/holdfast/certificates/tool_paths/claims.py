@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 _MOST_SEGMENTS = 256
 _WIDEST = 0.1  # m and rad, of a tube
+_MOST_TURN = 7.0  # rad, as the file counts angles
 _FINEST = SEGMENT >> 6  # instants: ends of what is claimed are multiples of it
 
 
@@ -90,6 +91,10 @@ def path_claim(
     given = real_numbers(getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad")
     if given.ndim != 2 or given.shape[1] != arm.n or len(given) < 2 or not np.isfinite(given).all():
         raise InputError(f"a motion needs two configurations or more of {arm.n} finite angles, not an array of {given.shape}")
+    if np.abs(given).max() >= _MOST_TURN:
+        raise InputError(
+            f"a joint of the motion turns to {np.abs(given).max():.3g} rad; for certificates of paths {_MOST_TURN} is most"
+        )
     beyond = ((given < arm.lower) | (given > arm.upper)).any(axis=1)
     if beyond.any():
         row = int(np.flatnonzero(beyond)[0])

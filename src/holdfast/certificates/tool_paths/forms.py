@@ -11,18 +11,20 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.taylor import Chain
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 SEGMENT = 1 << 20  # instants to a segment
+UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
 _ROUNDS, _TIGHTER = 30, 6  # of the section box: wider until it does, then narrower
-_MARGIN, _LEAST = 1.003, 2e-8  # of what the verifier must be able to show
+_MARGIN, _LEAST = 1.003, 1e-9  # of what the verifier must be able to show
 _STRAIGHT, _TURN = 2.91, 1.19  # of rotations: the trace in the middle, and what is turned from there
-_SIZES = 0.25 * 0.6 ** np.arange(24)  # of boxes with one solution, tried one after the other
-_NEWTON, _MET = 6, 1e-9
+_SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
+_NEWTON, _MET = 6, 1e-10
+_ROOM = 0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
 _NEVER = 10.0  # m and rad: no section box is so wide
 
 
@@ -159,6 +161,7 @@ class Following:
             only = np.where(one[:, None], wide, only)
         low, high = self.limits[self.free].T
         reach = 1.001 * far[:, self.free] + 1e-7
+        closed &= (s < _ROOM * only).all(axis=1)
         good = closed & one & ((q[:, self.free] - reach >= low) & (q[:, self.free] + reach <= high)).all(axis=1)
         if m > 3:
             good &= (turned < _TURN) & (np.einsum("nij,nij->n", at[1], target[1]) > _STRAIGHT)
@@ -279,9 +282,7 @@ def _twice(axes: Array, columns: Array, moves: Array) -> Array:
 
 def _axial(turn: Array) -> Array:
     """(N, 3) the axial vectors of rotations."""
-    return np.stack(
-        [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
-    ) / 2
+    return np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1) / 2
 
 
 def _onto(turn: Array) -> Array:

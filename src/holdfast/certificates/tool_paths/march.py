@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import pairwise
 from time import monotonic
 
 import numpy as np
@@ -17,8 +18,7 @@ Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 _AT_ONCE = 64  # slabs that march side by side
-_HALVINGS = 6  # of slabs
-_SHORTEST = SEGMENT >> 7  # of cells
+_SHORTEST = SEGMENT >> 7  # of cells, or a quarter of their slab
 
 
 @dataclass
@@ -50,6 +50,11 @@ class Slab:
         """Where the next cell ends."""
         return self.at + self.step
 
+    @property
+    def shortest(self) -> bool:
+        """Whether the next cell may not be shorter."""
+        return not self.ends or self.step <= max(1, min(_SHORTEST, (self.stop - self.begin) // 4))
+
     def lengthened(self) -> None:
         """The next step: up to twice as long, but such that cells are halves of halves of a segment."""
         self.step = min(2 * self.step, self.at & -self.at, SEGMENT)
@@ -61,6 +66,7 @@ class March:
     Args:
         following: The locked arm and the path.
         during: Of the lock instants, the first and last.
+        halvings: Of slabs, at most.
         glue: Whether cells must go on with each other. Without, what exists may be no motion.
 
     Attributes:
@@ -69,13 +75,14 @@ class March:
         closed: Instants of slabs that are done with.
     """
 
-    def __init__(self, following: Following, during: tuple[int, int], *, glue: bool = True) -> None:
-        self.following, self._glue, self._end = following, glue, (len(following.knots) - 1) * SEGMENT
+    def __init__(self, following: Following, during: tuple[int, int], halvings: int, *, glue: bool = True) -> None:
+        self.following, self._halvings, self._glue = following, halvings, glue
+        self._end = (len(following.knots) - 1) * SEGMENT
         self.proved: list[Slab] = []
         self.nodes, self.closed = 0, 0
         first, last = during
         faces = [first, *range((first // SEGMENT + 1) * SEGMENT, last, SEGMENT), last]
-        self._waiting = deque(Slab(a, b, step=b - a) for a, b in zip(faces[:-1], faces[1:], strict=True))
+        self._waiting = deque(Slab(a, b, step=b - a) for a, b in pairwise(faces))
         self._moving: list[Slab] = []
         self._before: Forms | None = None
 
@@ -115,7 +122,7 @@ class March:
         self.nodes += len(slabs)
         goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms) if self._glue else True)
         good, kept = forms.good & goes_on, []
-        ended = np.array([not slab.ends or slab.step <= _SHORTEST for slab in slabs]) & ~good
+        ended = np.array([slab.shortest for slab in slabs]) & ~good
         hopeless = ended.copy()
         hopeless[ended] = self._hopeless(q[ended], cells.take(ended))
         for k, slab in enumerate(slabs):
@@ -127,7 +134,7 @@ class March:
                     self.closed += slab.stop - slab.begin
                     continue
                 slab.lengthened()
-            elif slab.ends and slab.step > _SHORTEST:
+            elif not slab.shortest:
                 slab.step //= 2
             else:
                 self._given_up(slab, bool(hopeless[k]))
@@ -148,7 +155,7 @@ class March:
 
     def _given_up(self, slab: Slab, hopeless: bool) -> None:
         """Halved, if that is of any use."""
-        if hopeless or slab.halvings == _HALVINGS:
+        if hopeless or slab.halvings == self._halvings:
             self.closed += slab.stop - slab.begin
             return
         middle = (slab.begin + slab.stop) // 2

@@ -145,13 +145,13 @@ class PathProof(Result):
 class _Lock:
     """The search for one lock."""
 
-    def __init__(self, claim: PathClaim, chain: Chain, joint: int) -> None:
+    def __init__(self, claim: PathClaim, chain: Chain, joint: int, halvings: int) -> None:
         rows = ROWS[claim.task]
         self.joint, self.followers = joint, _followers(claim, joint, rows)
         tube = np.repeat(claim.tube, [min(3, rows), max(0, rows - 3)]) if claim.tube.any() else np.empty(0)
         limits = np.column_stack([claim.arm.lower, claim.arm.upper])
         following = Following(chain, claim.knots, rows, [joint, *self.followers], tube, limits)
-        self.march, self.finished, self._seconds = March(following, claim.during), False, 0.0
+        self.march, self.finished, self._seconds = March(following, claim.during, halvings), False, 0.0
 
     def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> None:
         """On with it until it is time (``monotonic``), or to stop."""
@@ -170,11 +170,11 @@ class _Lock:
 
 
 def proved(
-    claim: PathClaim, end: float, stop: Callable[[], bool], tell: Callable[[float, int], None]
+    claim: PathClaim, halvings: int, end: float, stop: Callable[[], bool], tell: Callable[[float, int], None]
 ) -> PathProof:
     """As much of a claim as can be proved until it is time (``monotonic``), or to stop."""
     chain, whole = Chain.of(claim.arm), claim.during[1] - claim.during[0]
-    locks = [_Lock(claim, chain, joint) for joint in claim.locks]
+    locks = [_Lock(claim, chain, joint, halvings) for joint in claim.locks]
 
     def told() -> None:
         tell(sum(lock.march.closed for lock in locks) / whole, len(locks))

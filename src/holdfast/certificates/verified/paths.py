@@ -19,6 +19,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import re
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -27,18 +28,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .balls import LEAST, UP, Balls, above, crossed, defect, flint, joined, stacked, times
-from .forms import COMMON, LIMITS, NUMBER, TEXT, UNIT, fit, need, real, spans, unpacked, within
+from .forms import COMMON, LIMITS, NUMBER, TEXT, fit, need, real, spans, unpacked, within
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Slab = tuple[int, Ints, Ints]  # the lock; its ends and those of its cells; centres of these
 
-SEGMENT = 1 << 20  # instants
+SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 MOST_SEGMENTS, MOST_CELLS, MOST_TURNING = 1 << 14, 1 << 24, 32
 AT_ONCE = 256  # cells
 SHARE = r"\d{1,60}/[1-9]\d{0,60}"
-_WIDER = 0.25 * 0.6 ** np.arange(24)  # of section boxes, tried one after the other
+_WIDER = 0.25 * 0.5 ** np.arange(27)  # of section boxes, tried one after the other
 
 
 def check(document: dict[str, Any]) -> None:
@@ -56,13 +57,19 @@ def check(document: dict[str, Any]) -> None:
         "centres": TEXT,
         "proved": SHARE,
     }
-    form = {"knots": [[NUMBER, n], ...], "tube": [NUMBER, 2], "limits": [LIMITS, n], "during": [range(count * SEGMENT + 1), 2]}
+    form: dict[str, Any] = {
+        "knots": [[NUMBER, n], ...],
+        "tube": [NUMBER, 2],
+        "limits": [LIMITS, n],
+        "during": [range(count * SEGMENT + 1), 2],
+    }
     volumes = {"volumes": dict.fromkeys(COMMON["volumes"], SHARE)}
-    fit(document, {**COMMON, **form, "locks": [lock, ...], **volumes}, "the certificate")
+    form |= {"unit": re.escape(UNIT.hex()), "locks": [lock, ...]}
+    fit(document, {**COMMON, **form, **volumes}, "the certificate")
     within(document["limits"], [joint["limits"] for joint in joints], "limits")
     for knot in knots or ():
         within([[x, x] for x in knot], document["limits"], "a knot")
-        need(all(abs(real(x)) < 100 for x in knot), "a knot turns by more than 100 rad")
+        need(all(abs(real(x)) < 7 for x in knot), "a knot turns by more than 7 rad")
     need(all(0 <= real(x) <= 0.1 for x in document["tube"]), "a tube is from 0 to 0.1 m and rad")
     need(document["during"][0] < document["during"][1], "during must not be empty")
     locked = [lock["joint"] for lock in document["locks"]]

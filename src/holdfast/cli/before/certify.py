@@ -9,9 +9,8 @@ import numpy as np
 import typer
 
 import holdfast as hf
+from holdfast.cli.before.certify_path import path
 from holdfast.cli.certify_options import (
-    REFUTED,
-    REJECTED,
     AnglesOption,
     AroundOption,
     BoxOption,
@@ -28,7 +27,7 @@ from holdfast.cli.certify_options import (
     TurnsOption,
     WithinOption,
 )
-from holdfast.cli.larger.study import stopping
+from holdfast.cli.certify_search import proved
 from holdfast.cli.options import (
     NOT_MET,
     ArmArgument,
@@ -43,10 +42,9 @@ from holdfast.cli.options import (
     read_by_joint,
     read_numbers,
 )
-from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import printed
 
 command = typer.Typer(
     name="certify",
@@ -92,7 +90,7 @@ def reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command("out-of-reach")
@@ -128,7 +126,7 @@ def out_of_reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -182,7 +180,7 @@ def tolerant(
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
-    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -221,7 +219,7 @@ def ceiling(
         failures=read_failures(model, failures),
         task=task,
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -260,7 +258,10 @@ def floor(
         failures=read_failures(model, failures),
         task=task,
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+command.command()(path)
 
 
 def _box_of(
@@ -306,23 +307,6 @@ def structural_zero(
         raise typer.Exit(NOT_MET)
     file = proof.write(out)
     printed(hf.check_certificate(file) if check else proof, json_, [file])
-
-
-def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
-    """Search, write, check, draw, print."""
-    with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
-        proof = hf.certify(claim, **how, progress=progress, stop=stop)
-    file = proof.write(out)
-    found = hf.check_certificate(file) if check and not stop() else None
-    printed(found or proof, as_json, [file, *drawn(proof, plot)])
-    if stop():
-        raise KeyboardInterrupt
-    if found is not None and found.rejected:
-        raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
-        raise typer.Exit(REFUTED)
-    if not proof.ok:
-        raise typer.Exit(NOT_MET)
 
 
 def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:
