@@ -25,6 +25,7 @@ _STRAIGHT, _TURN = 2.91, 1.19  # of rotations: the trace in the middle, and what
 _SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
 _NEWTON, _MET = 6, 1e-10
 _ROOM = 0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
+_STRIDE, _NEAR = SEGMENT // 2, 1e-6  # of the look ahead: instants, m and rad
 _NEVER = 10.0  # m and rad: no section box is so wide
 
 
@@ -41,10 +42,6 @@ class Cells:
     stop: Ints
     start: Ints
     end: Ints
-
-    def take(self, which: Flags) -> Cells:
-        """Of some of them."""
-        return Cells(self.begin[which], self.stop[which], self.start[which], self.end[which])
 
     @property
     def half(self) -> Array:
@@ -191,6 +188,25 @@ class Following:
         q = before.q.copy()
         q[:, self.free] += before.follow[:, :, 1] * middle[:, None]
         return self.placed(q, cells)
+
+    def comes_to_the_end(self, locks: Ints) -> Flags:
+        """Whether Newton's method follows the path from lock instants (N,) to its end, within the limits; a look ahead."""
+        end = (len(self.knots) - 1) * SEGMENT
+        held = self.healthy(2 * locks, np.maximum(locks, 1))[0]
+        q, good, (low, high) = held.copy(), np.ones(len(locks), dtype=bool), self.limits.T
+        for at in range(int(locks.min()) // _STRIDE * _STRIDE + _STRIDE, end + 1, _STRIDE):
+            some = np.flatnonzero(good & (locks < at))
+            goal = self.healthy(np.array([2 * at]), np.array([at]))[0]
+            target, now = self._moved(goal), q[some]
+            now[:, self.still[1:]] = goal[:, self.still[1:]]
+            for _ in range(_NEWTON):
+                error, slope = self._missed(self._moved(now), target)
+                if np.abs(error).max(initial=0.0) < _NEAR:
+                    break
+                now[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+            q[some] = now
+            good[some] = (np.abs(error) < _NEAR).all(axis=1) & ((now >= low) & (now <= high)).all(axis=1)
+        return good
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 

@@ -15,7 +15,6 @@ from holdfast.certificates.tool_paths.forms import SEGMENT, Cells, Following, Fo
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 _AT_ONCE = 64  # slabs that march side by side
 _SHORTEST = SEGMENT >> 7  # of cells, or a quarter of their slab
@@ -84,15 +83,24 @@ class March:
         faces = [first, *range((first // SEGMENT + 1) * SEGMENT, last, SEGMENT), last]
         self._waiting = deque(Slab(a, b, step=b - a) for a, b in pairwise(faces))
         self._moving: list[Slab] = []
+        self._failed: list[Slab] = []
         self._before: Forms | None = None
 
     def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> bool:
         """On with it until it is time (``monotonic``), or to stop; whether nothing is left to do."""
-        while (self._moving or self._waiting) and monotonic() < until and not stop():
+        while self.open and monotonic() < until and not stop():
+            if not (self._moving or self._waiting):
+                self._halved()
             self._filled()
-            self._moved()
+            if self._moving:
+                self._moved()
             tell()
-        return not (self._moving or self._waiting)
+        return not self.open
+
+    @property
+    def open(self) -> bool:
+        """Whether something is left to do."""
+        return bool(self._moving or self._waiting or self._failed)
 
     def _filled(self) -> None:
         """Slabs that wait begin where there is room."""
@@ -122,9 +130,6 @@ class March:
         self.nodes += len(slabs)
         goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms) if self._glue else True)
         good, kept = forms.good & goes_on, []
-        ended = np.array([slab.shortest for slab in slabs]) & ~good
-        hopeless = ended.copy()
-        hopeless[ended] = self._hopeless(q[ended], cells.take(ended))
         for k, slab in enumerate(slabs):
             if good[k]:
                 slab.ends.append(slab.next)
@@ -137,27 +142,28 @@ class March:
             elif not slab.shortest:
                 slab.step //= 2
             else:
-                self._given_up(slab, bool(hopeless[k]))
+                self._given_up(slab)
                 continue
             kept.append(k)
         chosen = np.array(kept, dtype=np.int64)
         self._before = before.replaced(forms, good).take(chosen)
         self._moving = [slabs[k] for k in kept]
 
-    def _hopeless(self, q: Array, cells: Cells) -> Flags:
-        """Of slabs that do not go on, whether single lock instants of them do not either: first, middle and last."""
-        lost = np.ones(len(q), dtype=bool)
-        for lock in (cells.begin, (cells.begin + cells.stop) // 2, cells.stop):
-            start = np.where(cells.start == cells.begin, np.minimum(lock, cells.stop - 1), cells.start)
-            alone = Cells(lock, lock, start, start + 1)
-            lost &= ~self.following.forms(self.following.solved(q, alone), alone).good
-        return lost
-
-    def _given_up(self, slab: Slab, hopeless: bool) -> None:
-        """Halved, if that is of any use."""
-        if hopeless or slab.halvings == self._halvings:
+    def _given_up(self, slab: Slab) -> None:
+        """To be halved, if that is of any use."""
+        if slab.halvings == self._halvings:
             self.closed += slab.stop - slab.begin
-            return
-        middle = (slab.begin + slab.stop) // 2
-        for a, b in ((slab.begin, middle), (middle, slab.stop)):
-            self._waiting.append(Slab(a, b, slab.halvings + 1, step=b - a))
+        else:
+            self._failed.append(slab)
+
+    def _halved(self) -> None:
+        """Those of slabs that were given up in which some lock instant, alone, comes to the end."""
+        slabs, self._failed = self._failed, []
+        locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
+        some = self.following.comes_to_the_end(locks.ravel()).reshape(-1, 3).any(axis=1)
+        for slab, (begin, middle, stop), good in zip(slabs, locks.tolist(), some, strict=True):
+            if not good:
+                self.closed += stop - begin
+                continue
+            for a, b in ((begin, middle), (middle, stop)):
+                self._waiting.append(Slab(a, b, slab.halvings + 1, step=b - a))
