@@ -37,6 +37,7 @@ RESULTS = named(
         "ceilings": "Ceiling CeilingSearch CeilingTable",
         "certificates": "ManipulabilityBound CertificateCheck Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
+        "designs": "Book Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "WaypointCheck WhatIsLeft",
