@@ -17,3 +17,4 @@ from holdfast.certificates.proof import Proof as Proof
 from holdfast.certificates.proof import TolerantProof as TolerantProof
 from holdfast.certificates.prover import certify as certify
 from holdfast.certificates.structure import StructuralZero as StructuralZero
+from holdfast.certificates.tree import SearchState as SearchState

@@ -51,6 +51,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "target-measures": "unnoticed.target_measures",
     "convergence-map": "unnoticed.convergence_map",
     "best-law": "unnoticed.best_law",
+    "faults": "unnoticed.faults",
     "recover": "known.recover",
     "self-motion": "known.self_motion",
     "tolerant-workspace": "known.tolerant_workspace",

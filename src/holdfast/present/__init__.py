@@ -30,6 +30,7 @@ PRESENTERS = {
     "FailActive": ("bench.console", "bench.page"),
     "Endurance": ("endurance.console", "endurance.page"),
     "Execution": ("physics.execution", "physics.execution"),
+    "FaultBatch": ("faults.console", ""),
     "FreeSwing": ("physics.swing", "physics.swing"),
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),

@@ -24,9 +24,11 @@ from holdfast.cli.certify_options import (
     RotationOption,
     RowsOption,
     SizeOption,
+    StoreOption,
     TimeOption,
     TurnsOption,
     WithinOption,
+    WorkersOption,
 )
 from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import (
@@ -46,6 +48,7 @@ from holdfast.cli.options import (
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
+from holdfast.present.certificates.console import state
 from holdfast.present.results import drawn, printed
 
 command = typer.Typer(
@@ -67,6 +70,8 @@ def reach(
     degrees: AnglesOption = False,
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -79,7 +84,7 @@ def reach(
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -92,7 +97,8 @@ def reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    _proved(claim, out, check, json_, plot, **how)
 
 
 @command.command("out-of-reach")
@@ -154,12 +160,14 @@ def tolerant(
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts; or FILE.zip.")] = Path(
         "certificates"
     ),
     plot: PlotOption = None,
@@ -168,7 +176,7 @@ def tolerant(
     """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
@@ -182,7 +190,8 @@ def tolerant(
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
-    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    _proved(claim, out, check, json_, plot, **how)
 
 
 @command.command()
@@ -310,8 +319,9 @@ def structural_zero(
 
 def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
     """Search, write, check, draw, print."""
-    with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
-        proof = hf.certify(claim, **how, progress=progress, stop=stop)
+    bar = progress_bar(as_json, "ten-thousandths")
+    with stopping("") as stop, bar as progress:
+        proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
     file = proof.write(out)
     found = hf.check_certificate(file) if check and not stop() else None
     printed(found or proof, as_json, [file, *drawn(proof, plot)])
