@@ -79,12 +79,12 @@ class Ceiling(Result):
 
     @cached_property
     def null_space(self) -> Array | None:
-        """(n, n - m) orthonormal columns, the best null space known; None where none is stored and no theorem gives one."""
+        """(n, n - m) orthonormal columns, the best null space known; None where nothing is stored and no theorem gives one."""
         return _best_null_space(self.n, self.m, self.k)
 
     @cached_property
     def best_known(self) -> float | None:
-        """What some Jacobian attains, the worst case of :attr:`null_space`; None where none is known."""
+        """What some Jacobian attains, the worst case of :attr:`null_space`; None where nothing is known."""
         if self.null_space is None:
             return None
         return min(worst_case(self.null_space, self.k), self.bound)  # which it passes by rounding where it attains it
