@@ -80,6 +80,44 @@ def test_what_is_no_jacobian_of_an_arm_is_refused(pa10_7):
         hf.designs.synthesise(hf.ceilings.look_up(n=5, m=3, k=2))
 
 
+# ---- orders ------------------------------------------------------------------------------------------------------------
+
+
+def test_orders_are_judged_as_the_index_judges_their_arms(pa10_7):
+    """A few orders: the same draws through the index of the arm that is made for each of them."""
+    (j,), _ = poses_of(hf.ceilings.look_up(n=7, m=6).null_space, starts=1, seed=2)
+    found = hf.designs.judge_orders(j, samples=300, at_most=3, seed=5)
+    assert found.at_home == pytest.approx(7**-0.5, rel=1e-9)
+    draws = np.random.default_rng(5)
+    draws.permutation(np.zeros((2520, 7)))  # the orders are drawn first
+    q = draws.uniform(-np.pi, np.pi, (300, 7))
+    for d, order in enumerate(found.orders):
+        arm = hf.designs.synthesise(jacobian=j[:, order], decimals=16).arms[0]
+        rho = np.array([least(arm.jacobian(x)) for x in q])
+        assert found.mean[d] == pytest.approx(rho.mean(), rel=1e-7)
+        assert found.counts[d].tolist() == [(rho >= h).sum() for h in found.thresholds]
+        assert found.interval(d, 1).low <= found.fractions[d, 1] <= found.interval(d, 1).high
+
+
+def least(jacobian):
+    return abs(np.linalg.svd(jacobian)[2][-1]).min()
+
+
+def test_a_reversed_order_is_the_same_arm_read_from_the_tool(rng):
+    """At the angles of the first in reverse and the other way round both have the same value."""
+    (j,), _ = poses_of(hf.ceilings.look_up(n=7, m=6).null_space, starts=1, seed=2)
+    one, other = (hf.designs.synthesise(jacobian=x, decimals=16).arms[0] for x in (j, j[:, ::-1]))
+    for q in rng.uniform(-np.pi, np.pi, (20, 7)):
+        assert least(one.jacobian(q)) == pytest.approx(least(other.jacobian(-q[::-1])), abs=1e-10)
+
+
+def test_orders_that_cannot_be_judged(pa10):
+    with pytest.raises(hf.InputError, match="say how many with at_most"):
+        hf.designs.judge_orders(pa10.jacobian(np.full(9, 0.3)))
+    with pytest.raises(hf.InputError, match="of 6 rows"):
+        hf.designs.judge_orders(np.eye(3))
+
+
 # ---- the record book ---------------------------------------------------------------------------------------------------
 
 

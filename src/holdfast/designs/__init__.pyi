@@ -26,3 +26,5 @@ from holdfast.designs.space import parse_vary as parse_vary
 from holdfast.designs.synthesis.arms import Synthesis as Synthesis
 from holdfast.designs.synthesis.arms import synthesise as synthesise
 from holdfast.designs.synthesis.arms import written as written
+from holdfast.designs.synthesis.orders import Orders as Orders
+from holdfast.designs.synthesis.orders import judge_orders as judge_orders

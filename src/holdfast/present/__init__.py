@@ -38,6 +38,7 @@ PRESENTERS = {
     "Merged": ("studies.console", ""),
     "Objective": ("indices.notebook", ""),
     "Optima": ("solvers.console", "solvers.console"),
+    "Orders": ("designs.records", ""),
     "Orbit": ("equilibria.orbit", ""),
     "Path": ("paths.path", ""),
     "PhysicalRun": ("physics.console", "physics.run"),

@@ -10,11 +10,13 @@ from holdfast.arms.dh_file import text
 from holdfast.arms.dh_rows import dh_table
 from holdfast.designs.book.entries import Book, Record, RecordCheck
 from holdfast.designs.synthesis.arms import Synthesis
+from holdfast.designs.synthesis.orders import Orders
 from holdfast.present.printing import Rows
 from holdfast.words import percent
 
-Shown = Book | Record | RecordCheck | Synthesis
+Shown = Book | Record | RecordCheck | Synthesis | Orders
 
+_BEST = 10  # orders in a table
 _HEAD = ["record", "task", "joints", "locked", "value", "no arm can beat", "by", "gap"]
 
 
@@ -33,6 +35,9 @@ def to_dict(found: Shown) -> dict[str, Any]:
         return found.data.model_dump(by_alias=True, exclude_none=True)
     if isinstance(found, RecordCheck):
         return {"record": found.record.id, "ok": found.ok, "claims": [{"said": s, "holds": h} for s, h in found.claims]}
+    if isinstance(found, Orders):
+        numbers = {"samples": found.samples, "seed": found.seed, "at_home": found.at_home, "thresholds": list(found.thresholds)}
+        return numbers | {"orders": found.orders.tolist(), "fractions": found.fractions.tolist(), "mean": found.mean.tolist()}
     tables = [text(dh_table(arm), arm.name) for arm in found.arms]
     numbers = {"task": found.task, "failures": found.failures, "value": found.value, "bound": found.bound}
     return numbers | {"residual": found.residual, "losses": found.losses, "tables": tables}
@@ -42,6 +47,11 @@ def tables(found: Shown) -> list[Rows]:
     """A row for each record or arm."""
     if isinstance(found, Book):
         return [Rows(_HEAD, [row(r) for r in found.values()])]
+    if isinstance(found, Orders):
+        best = found.mean.argsort()[::-1][:_BEST]
+        head = ["order", *(f"at least {h:g}" for h in found.thresholds), "mean"]
+        shown = [[" ".join(str(k + 1) for k in found.orders[d]), *map(percent, found.fractions[d])] for d in best]
+        return [Rows(head, [[*cells, f"{found.mean[d]:.4f}"] for d, cells in zip(best, shown, strict=True)], "best means")]
     if isinstance(found, Synthesis):
         rows = []
         for k, (arm, loss) in enumerate(zip(found.arms, found.losses, strict=True), 1):
@@ -70,4 +80,6 @@ def next_steps(found: Shown, name: str) -> list[str]:
         return [f"{name}.check()  # measures it again"]
     if isinstance(found, RecordCheck):
         return [f"{name}.ok  # every claim holds"]
+    if isinstance(found, Orders):
+        return [f"{name}.interval({int(found.mean.argmax())}, 0)  # of the order with the best mean, at the first threshold"]
     return [f"hf.arms.dh_table({name}.arms[0])  # to build it"]
