@@ -37,6 +37,7 @@ RESULTS = named(
         "ceilings": "Ceiling CeilingSearch CeilingTable",
         "certificates": "ManipulabilityBound CertificateCheck Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
+        "designs": "Book Orders Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",
         "faults": "FaultBatch",
         "equilibria": "Basins Curves Orbit StationaryPoints",

@@ -42,6 +42,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "certificate": "before.certificate",
     "trade-off": "before.trade_off",
     "design": "before.design",
+    "records": "before.records",
     "simulate": "unnoticed.simulate",
     "compare-laws": "unnoticed.compare_laws",
     "stationary-points": "unnoticed.stationary_points",
