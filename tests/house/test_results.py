@@ -60,6 +60,7 @@ VALUES = named(
         "equilibria": "Curve Segment",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
+        "frameworks": "RowFunction",
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
