@@ -64,6 +64,7 @@ VALUES = named(
         "faults": "Feasibility",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
+        "frameworks": "RowFunction",
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
