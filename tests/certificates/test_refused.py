@@ -45,5 +45,6 @@ def test_bounds_and_distances(panda, monkeypatch):
     box = np.column_stack([ready - 0.1, ready + 0.1])
     with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a threshold farther from 0.01"):
         hf.certify(ceiling_claim(panda, box, 0.0125))
+    monkeypatch.setattr(halving, "MOST_LEAVES", 0)
     with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a narrower interval"):
         hf.certify(out_of_reach_claim(panda, [0.5, 0, -0.3], 0.015, locked={1: (-0.35, -0.26)}))
