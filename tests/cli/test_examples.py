@@ -68,6 +68,7 @@ QUICK |= {
     "certify structural-zero",
     "certify out-of-reach",
     "certify tolerant",
+    "certify path",
     "certificate check",
     "certificate show",
     "study new",

@@ -39,6 +39,7 @@ PRESENTERS = {
     "Optima": ("solvers.console", "solvers.console"),
     "Orbit": ("equilibria.orbit", ""),
     "Path": ("paths.path", ""),
+    "PathProof": ("certificates.motions", "certificates.motions"),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("recovery.console", "recovery.motion"),
     "Proof": ("certificates.console", "certificates.slices"),
