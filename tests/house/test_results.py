@@ -58,6 +58,7 @@ VALUES = named(
         "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
+        "certificates": "SearchState",
         "endurance": "Approach Compared Found Injection VelocityJump",
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
