@@ -107,6 +107,7 @@ def test_the_motion_follows_the_path_and_survives_what_it_says(narrow):
     assert given.bound is given.gap is given.found is None
 
 
+@pytest.mark.interpreted
 def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow):
     """Where a lock leads into a ball the path is not finished: closed form, and distances in the plane."""
     machine, path, free = narrow
@@ -264,7 +265,7 @@ def test_an_elbow_is_set_by_the_pose():
     begin[:3, 3] = [0.45, -0.5, 0.35]
     end = begin.copy()
     end[1, 3] = 0.5
-    best = hf.endure(machine, TimedPath(line(begin, end), Constant(10.0)), samples=26, spacing=0.15)
+    best = hf.endure(machine, TimedPath(line(begin, end), Constant(10.0)), samples=16, spacing=0.15)
     assert best.found.moved[3] == pytest.approx(0.0, abs=1e-6)
     assert best.by_joint[machine.joint_names[3]] <= 0.05
     assert 0.5 < best.survival <= best.bound + 1e-9 < 0.87
