@@ -23,15 +23,15 @@ _ACROSS = 4  # pictures in a row
 
 def to_dict(found: PathProof) -> dict[str, Any]:
     """Parts of the lock instants as exact fractions and as numbers, of all locks and of each; cells, seconds."""
-    parts = {}
+    parts: dict[str, Any] = {}
     for part in found.parts:
         gaps = [[begin / SEGMENT, stop / SEGMENT] for begin, stop in found.gaps(part)]
         counts = {"leaves": part.leaves, "nodes": part.nodes, "finished": part.finished, "seconds": part.seconds}
         shares = {"proved": _share(part.proved), "undecided": _share(1 - part.proved)}
         followers = [found.claim.arm.joint_names[k] for k in part.followers]
         parts[_name(found, part)] = shares | {"undecided_between_knots": gaps, "followers": followers} | counts
-    shares = {"proved": found.proved, "undecided": found.undecided, "tolerant": found.tolerant}
-    said = {"claim": found.document["claim"], **{key: _share(part) for key, part in shares.items()}}
+    of_all = {"proved": found.proved, "undecided": found.undecided, "tolerant": found.tolerant}
+    said = {"claim": found.document["claim"], **{key: _share(share) for key, share in of_all.items()}}
     counts = {"leaves": found.leaves, "nodes": found.nodes, "finished": found.finished, "verified": False}
     return said | counts | {"deviation": found.claim.deviation, "seconds": found.seconds, "parts": parts}
 
