@@ -22,7 +22,9 @@ def test_a_lock_is_followed_as_far_as_the_closed_form_says(limits, rng):
     for _ in range(4):
         begin, end = rng.uniform(-2, 2, (2, 2))
         path = timed(begin, end)
-        problem = posed(machine, path, None, False, "on-path", None, 31, None, None, 0.0, spacing=0.1, seed=0, starts=8)
+        problem = posed(
+            machine, path, None, False, "on-path", None, 31, None, None, 0.0, keep=None, spacing=0.1, seed=0, starts=8
+        )
         found = hf.solve_ik(machine, problem.lock.poses, seed=int(rng.integers(1 << 30)), task="planar", restarts=20)
         if not found.success.all():
             continue

@@ -20,3 +20,4 @@ from holdfast.certificates.structure import StructuralZero as StructuralZero
 from holdfast.certificates.tool_paths.claims import PathClaim as PathClaim
 from holdfast.certificates.tool_paths.claims import path_claim as path_claim
 from holdfast.certificates.tool_paths.proof import PathProof as PathProof
+from holdfast.certificates.tree import SearchState as SearchState

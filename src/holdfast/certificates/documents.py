@@ -19,30 +19,35 @@ from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantCl
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
+from holdfast.certificates.target_boxes.jobs import Found
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tool_paths import forms
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tree import PROVED, Tree
+from holdfast.certificates.tree import PROVED
 
 Document = dict[str, Any]
 
 
-def reach(claim: ReachClaim, tree: Tree, undecided: Fraction, *, seconds: float, nodes: int) -> Document:
+def reach(claim: ReachClaim, found: Found, undecided: Fraction) -> Document:
     """The certificate of a search, of whose box a part is undecided."""
-    tokens, centres = tree.in_order()
-    rows = np.array(centres, dtype="<i4").reshape(-1, claim.arm.n)
     return _signed(
-        _common("reach", claim, seconds, nodes)
+        _common("reach", claim, found.seconds, found.nodes)
         | _lock(claim)
         | {
             "unit": UNIT.hex(),
-            "tree": _packed(tokens),
-            "centres": _packed(rows.tobytes()),
+            "tree": _packed(found.tree),
+            "centres": _packed(found.centres.astype("<i4").tobytes()),
             "refutations": [],
             "volumes": _volumes(undecided),
         }
     )
+
+
+def said(claim: ReachClaim) -> str:
+    """The sentence of a claim, which has all of its numbers and the digest of the arm."""
+    made = _common("reach", claim, 0.0, 0) | _lock(claim)
+    return verifier.sentence(made | {"arm_digest": verifier.digest(made["arm"])})
 
 
 def bundle(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:

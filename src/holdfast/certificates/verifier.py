@@ -28,6 +28,8 @@ import random
 import re
 import sys
 import time
+import zipfile
+import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
@@ -135,15 +137,20 @@ def sentence(document: dict[str, Any]) -> str:
     return f"{text}{ends}; lengths in m, angles in rad, base frame, arm {document['arm_digest'][:12]}."
 
 
-def load(path: Path) -> dict[str, Any]:
-    """A certificate of the right form, whose digests fit and whose claim is what its keys say; raises :class:`Refused`."""
+def load(path: Path | zipfile.Path) -> dict[str, Any]:
+    """A certificate of the right form, whose digests fit and whose claim is what its keys say; raises :class:`Refused`.
+
+    Of an archive (``.zip``), in which the parts of a bundle lie beside it, that is its first file.
+    """
 
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         need(len(dict(pairs)) == len(pairs), f"a key is given twice in an object of {path.name}")
         return dict(pairs)
 
     try:
-        need(path.stat().st_size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES >> 20} MB")
+        path = _first(path)
+        size = path.stat().st_size if isinstance(path, Path) else path.root.getinfo(path.at).file_size  # never is more read
+        need(size <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES >> 20} MB")
         document = json.loads(
             path.read_bytes().decode(), object_pairs_hook=once, parse_constant=lambda x: need(0, f"{x} in it")
         )
@@ -152,9 +159,17 @@ def load(path: Path) -> dict[str, Any]:
         raise
     except OSError as error:
         raise Refused(f"cannot read {path.name}: {error.strerror}") from None
-    except (ValueError, OverflowError, RecursionError) as error:
+    except (ValueError, OverflowError, RuntimeError, LookupError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise Refused(f"{path.name} cannot be read as JSON and its numbers: {str(error)[:80]}") from None
     return dict(document)
+
+
+def _first(path: Path | zipfile.Path) -> Path | zipfile.Path:
+    """The first file of an archive; of another, itself."""
+    if not isinstance(path, Path) or path.suffix != ".zip":
+        return path
+    archive = zipfile.ZipFile(path)
+    return zipfile.Path(archive, archive.namelist()[0])
 
 
 def _check(document: dict[str, Any]) -> None:
@@ -1042,7 +1057,8 @@ def verify(
             "structural-zero": _structural_zero,
             "path": _path,
         }[document["kind"]](document, sample, workers, tell)
-    files, ranges = [load(path.parent / part["file"]) for part in document["parts"]], document["working_ranges"]
+    folder, ranges = _first(path).parent, document["working_ranges"]
+    files = [load(folder / part["file"]) for part in document["parts"]]
     same = {"kind": "reach"} | {key: document[key] for key in ("arm", "task", "target")}
     for part, file, locked in zip(document["parts"], files, [-1, *document["locks"]], strict=True):
         same |= {"digest": part["digest"], "locked": locked, "angle": ranges[locked] if locked >= 0 else None}

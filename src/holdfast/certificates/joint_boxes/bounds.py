@@ -16,6 +16,7 @@ from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.proof import Halved, early
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tree import Tell
 from holdfast.indices import relative_manipulability
 
 Array = NDArray[np.float64]
@@ -59,7 +60,7 @@ class ManipulabilityBound(Halved):
 
 
 def bounded(
-    claim: BoundClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
+    claim: BoundClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell
 ) -> ManipulabilityBound:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()

@@ -20,6 +20,7 @@ from holdfast.certificates.claims import ROWS, OutOfReachClaim
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain, Reach
+from holdfast.certificates.tree import Tell
 
 Array = NDArray[np.float64]
 
@@ -81,10 +82,8 @@ def ranges(claim: OutOfReachClaim) -> Array:
     return kept
 
 
-def exclude(
-    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
-) -> Exclusion:
-    """Search for a witness, then for a proof, until a time (``monotonic``) or ``stop``; ``tell`` hears what part is closed."""
+def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell) -> Exclusion:
+    """Search for a witness, then for a proof, until a time (``monotonic``) or ``stop``; ``tell`` hears how far it is."""
     rng = np.random.default_rng(seed)
     found = _witness(claim, rng)
     if found is not None:

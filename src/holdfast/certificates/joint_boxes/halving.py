@@ -9,7 +9,7 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tree import SPLIT, UNDECIDED
+from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, Tell
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -40,7 +40,7 @@ class Halving:
         test: Test,
         until: float = np.inf,
         stop: Callable[[], bool] = lambda: False,
-        tell: Callable[[float], None] = lambda closed: None,
+        tell: Tell = lambda now: None,
         most: int = 1 << 24,
     ) -> bool:
         """Halve until all is decided, a time (``monotonic``) or ``stop`` comes, or so many nodes are made: then False.
@@ -48,7 +48,7 @@ class Halving:
         The test takes middles and half widths (N, A) and gives a token or OPEN for each (N,), and what halving each axis would
         gain (N, A). ``tell`` is told what part of the box is closed.
         """
-        axes, closed = len(self.box), 0.0
+        axes, closed, proved = len(self.box), 0.0, 0.0
         waiting = [(np.zeros(1, dtype=np.int64), self.box.mean(axis=1)[None], np.zeros((1, axes), dtype=np.int64))]
         while waiting:
             if monotonic() > until or stop() or self.nodes > most:
@@ -65,7 +65,8 @@ class Halving:
             gain = np.where((depth < self.halvings) & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
             split = ~done & (gain.max(axis=1) > 0)
             closed += float((0.5 ** depth[~split].sum(axis=1)).sum())
-            tell(closed)
+            proved += float((0.5 ** depth[done].sum(axis=1)).sum())
+            tell(SearchState(proved=proved, undecided=closed - proved, open=1 - closed, nodes=self.tested))
             if split.any():
                 waiting.append(self._split(name[split], middle[split], depth[split], half[split], gain[split].argmax(axis=1)))
         return True

@@ -20,6 +20,7 @@ from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import Following
 from holdfast.certificates.tool_paths.march import LockedPath, March
+from holdfast.certificates.tree import SearchState, Tell
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
@@ -136,15 +137,15 @@ class _Lock:
         )  # fmt: skip
 
 
-def proved(
-    claim: PathClaim, halvings: int, end: float, stop: Callable[[], bool], tell: Callable[[float, int], None]
-) -> PathProof:
+def proved(claim: PathClaim, halvings: int, end: float, stop: Callable[[], bool], tell: Tell) -> PathProof:
     """As much of a claim as can be proved until it is time (``monotonic``), or to stop."""
     chain, whole = Chain.of(claim.arm), claim.during[1] - claim.during[0]
     locks = [_Lock(claim, chain, joint, halvings) for joint in claim.locks]
 
     def told() -> None:
-        tell(sum(lock.march.closed for lock in locks) / whole, len(locks))
+        done = sum(slab.stop - slab.begin for lock in locks for slab in lock.march.proved) / (whole * len(locks))
+        closed = sum(lock.march.closed for lock in locks) / (whole * len(locks))
+        tell(SearchState(done, closed - done, 1 - closed, sum(lock.march.nodes for lock in locks)))
 
     while (left := [lock for lock in locks if not lock.finished]) and monotonic() < end and not stop():
         for count, lock in zip(range(len(left), 0, -1), left, strict=True):

@@ -23,9 +23,11 @@ from holdfast.cli.certify_options import (
     RotationOption,
     RowsOption,
     SizeOption,
+    StoreOption,
     TimeOption,
     TurnsOption,
     WithinOption,
+    WorkersOption,
 )
 from holdfast.cli.certify_search import proved
 from holdfast.cli.options import (
@@ -65,6 +67,8 @@ def reach(
     degrees: AnglesOption = False,
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -77,7 +81,7 @@ def reach(
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -90,7 +94,8 @@ def reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, plot, **how)
 
 
 @command.command("out-of-reach")
@@ -152,12 +157,14 @@ def tolerant(
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts; or FILE.zip.")] = Path(
         "certificates"
     ),
     plot: PlotOption = None,
@@ -166,7 +173,7 @@ def tolerant(
     """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
@@ -180,7 +187,8 @@ def tolerant(
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
-    proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, plot, **how)
 
 
 @command.command()

@@ -74,6 +74,7 @@ def numbers(result: Assessment, thresholds: Thresholds, rates: Mapping[str | int
             "better": result.index.better,
             "bound": result.index.bound,
             "bound_note": result.index.bound_note,
+            "best_known": result.index.best_known,
             "task": result.index.task.name,
             "characteristic_length_m": result.index.task.length,
             "region": result.region.to_dict(),

@@ -85,7 +85,7 @@ def holds_configuration(space: Space, q: Array) -> Holds:
     )
 
 
-def may_meet(space: Space, rows: Rows, poses: Array, tolerance: float = 1e-6) -> Holds:
+def may_meet(space: Space, rows: Rows, poses: Array, tolerance: tuple[float, float] = (1e-6, 1e-6)) -> Holds:
     """Of a goal that is any of poses (G, 4, 4), in rows of a task: rows that both turn and move are left aside."""
     arm = space.arm
     turns = np.abs(rows.matrix[:, :3]).max(axis=1) == 0
@@ -96,8 +96,8 @@ def may_meet(space: Space, rows: Rows, poses: Array, tolerance: float = 1e-6) ->
 
     def holds(middle: Array, half: Array) -> Flags:
         frames = arm.frames(middle)
-        moved = tool.moved(arm, frames, half)[:, 0] + tolerance + _SLACK
-        turned = float(half[~arm.prismatic].sum()) + tolerance + _SLACK
+        moved = tool.moved(arm, frames, half)[:, 0] + np.sqrt(3) * tolerance[0] + _SLACK
+        turned = float(half[~arm.prismatic].sum()) + np.sqrt(3) * tolerance[1] + _SLACK
         found = np.zeros(len(middle), dtype=bool)
         for pose in poses:
             away, good = pose[:3, 3] - frames[:, -1, :3, 3], np.ones(len(middle), dtype=bool)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,20 +11,24 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, plane_normal
 from holdfast.clearance.clearance import Clearance
-from holdfast.enclosure import Configurations, Finding, all_configurations
+from holdfast.enclosure import Configurations, Finding, all_configurations, parted
 from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
-from holdfast.recovery.proofs.within_objects import WithinObjects
+from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Space
+
+if TYPE_CHECKING:
+    from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 _BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
 _SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
-_TOLERANCE = 1e-6  # m and rad: what the search takes as met
+Tolerance = tuple[float, float]
+EXACT: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
 
 
 def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str | None:
@@ -49,22 +54,73 @@ def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str |
 def every_clear(
     degraded: Degraded, task: Task, pose: Array, space: Space, clearance: Clearance | None
 ) -> tuple[Configurations | None, str | None]:
-    """Every configuration of a pose (4, 4) that is not within an object, and that none is clear, if these can be told.
+    """Every configuration of a pose (4, 4) that is not certainly blocked, and that none is clear, if these can be told.
 
     In half of the time that is left.
     """
-    kept = space.clearance
-    blocked = None if kept is None or kept.obstacles is None else WithinObjects(kept, space.margin)
+    blocked = _blocked(space)
     found = listed(degraded, task, pose, space.seconds_left / 2, blocked)
-    return found, proved_by(found, clearance, "" if blocked is None else blocked.objects)
+    return found, proved_by(found, clearance, "" if blocked is None else blocked.what)
+
+
+def none_within(degraded: Degraded, task: Task, pose: Array, space: Space, tolerance: Tolerance) -> bool:
+    """Whether it is proved that nothing clear misses a pose (4, 4) by no more than a tolerance, m and rad.
+
+    In half of the time that is left.
+    """
+    found = listed(degraded, task, pose, space.seconds_left / 2, _blocked(space), tolerance)
+    return found is not None and found.none
+
+
+def parted_leg(degraded: Degraded, task: Task, path: Path, space: Space, tolerance: Tolerance = EXACT) -> str | None:
+    """A sentence that proves that no continuous motion follows a tool path; None if none is proved of its straight legs.
+
+    Each leg gets half of the time that is left.
+    """
+    limits = degraded.lo, degraded.hi
+    if not np.isfinite(limits).all():  # joints that turn round and round join what boxes do not
+        return None
+    straight = path.shift.any(axis=1) & ~path.sweep.any(axis=1) & ~path.turn.any(axis=1)
+    for k in np.flatnonzero(straight).tolist():
+        try:
+            boxes = parted(
+                degraded.arm,
+                task,
+                path.starts[k],
+                path.shift[k],
+                limits=limits,
+                tolerance=tolerance,
+                time_limit=space.seconds_left / 2,
+                most_boxes=_BOXES,
+                blocked=_blocked(space),
+            )
+        except TaskError:
+            return None
+        if boxes is not None:
+            begin, end = 100 * path.bounds[k : k + 2]
+            return (
+                f"from {begin:.4g} to {end:.4g} % of the tool path no continuous motion leads through its poses: {boxes:,} "
+                "boxes of joints that may hold a configuration do not join its ends, up to floating point"
+            )
+    return None
+
+
+def _blocked(space: Space) -> BlockedBoxes | None:
+    kept = space.clearance
+    return None if kept is None else BlockedBoxes(kept, space.margin, (space.low, space.high))
 
 
 def listed(
-    degraded: Degraded, task: Task, pose: Array, seconds: float, blocked: WithinObjects | None = None
+    degraded: Degraded,
+    task: Task,
+    pose: Array,
+    seconds: float,
+    blocked: BlockedBoxes | None = None,
+    tolerance: Tolerance = EXACT,
 ) -> Configurations | None:
     """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.
 
-    Those in which the arm certainly is within an object are left out.
+    Those in which the arm certainly touches something are left out.
 
     Args:
         degraded: What is in force, every lock with its value.
@@ -72,6 +128,7 @@ def listed(
         pose: (4, 4) of the end effector, m.
         seconds: At most.
         blocked: Which boxes are; None without a cell.
+        tolerance: m and rad by which the pose may be missed.
     """
     limits = degraded.lo, degraded.hi
     known = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)  # or it turns once
@@ -84,7 +141,7 @@ def listed(
             pose,
             task,
             limits=limits,
-            tolerance=_TOLERANCE,
+            tolerance=tolerance,
             most_boxes=_BOXES,
             first=False,
             blocked=blocked,
@@ -94,19 +151,19 @@ def listed(
         return None
 
 
-def proved_by(found: Configurations | None, clearance: Clearance | None, objects: str = "") -> str | None:
+def proved_by(found: Configurations | None, clearance: Clearance | None, what: str = "") -> str | None:
     """A sentence that proves that no clear configuration exists: there is none, or each of them touches something.
 
     Args:
         found: All there are.
         clearance: By which they are judged.
-        objects: Names of those within which boxes were left out.
+        what: Names of what blocked the boxes that were left out.
     """
     if found is None or found.finding not in (Finding.NONE, Finding.ALL):
         return None
     if not len(found.q) and found.blocked:
         return (
-            f"every configuration within the limits that meets it is within an object ({objects}), by {found.boxes:,} boxes of "
+            f"every configuration within the limits that meets it touches something ({what}), by {found.boxes:,} boxes of "
             "joints, up to floating point"
         )
     if not len(found.q):
