@@ -69,18 +69,10 @@ if TYPE_CHECKING or __package__:
         spans,
         within,
     )
-    from holdfast.certificates.verified.forms import (
-        FOR_PEOPLE as FOR_PEOPLE,
-    )
-    from holdfast.certificates.verified.forms import (
-        Refused as Refused,
-    )
-    from holdfast.certificates.verified.forms import (
-        digest as digest,
-    )
-    from holdfast.certificates.verified.forms import (
-        unpacked as unpacked,
-    )
+    from holdfast.certificates.verified.forms import FOR_PEOPLE as FOR_PEOPLE
+    from holdfast.certificates.verified.forms import Refused as Refused
+    from holdfast.certificates.verified.forms import digest as digest
+    from holdfast.certificates.verified.forms import unpacked as unpacked
 else:  # run as a file: the folder lies beside it
     from verified import motions, paths
     from verified.balls import *  # noqa: F403
