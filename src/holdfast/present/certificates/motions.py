@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,7 +87,10 @@ def story(found: PathProof) -> Story:
     """How much is proved, and what that says and does not."""
     claim, share = found.claim, per_cent(found.tolerant).replace(" %", "\N{NO-BREAK SPACE}%")
     tube = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
+    whole = [_name(found, part) for part in found.parts if part.proved == 1]
     answer = "Nothing is proved for all locks: something is undecided at every instant."
+    if whole:
+        answer = f"At no instant is it proved for all locks, but at every instant for those of {', '.join(whole)}."
     if found.tolerant:
         rest = "nothing is undecided" if found.tolerant == 1 else "the rest is undecided for some lock"
         answer = (
@@ -164,6 +168,6 @@ def _panel(axes: Axes, found: PathProof, part: LockedPath) -> None:
     axes.add_collection(PolyCollection(left, facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3))
     axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
     axes.plot([0, end], [0, end], color=INK, linewidth=0.8)
-    axes.set(xlim=(0, end), ylim=(0, end), title=f"{_name(found, part)}: {per_cent(part.proved)}")
+    axes.set(xlim=(0, end), ylim=(0, end), title=f"{_name(found, part)}: {math.floor(1000 * part.proved) / 10:g} %")
     axes.set_aspect("equal")
     axes.grid(visible=False)
