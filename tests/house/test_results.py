@@ -84,7 +84,7 @@ INPUTS = named(
         "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "bench": "Case",
-        "certificates": "BoundClaim OutOfReachClaim ReachClaim StructuralZeroClaim TolerantClaim",
+        "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "clearance": "Capsule IgnoredPair",
         "control": "Law",
