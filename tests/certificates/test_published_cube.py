@@ -9,6 +9,7 @@ from pathlib import Path
 import flint
 import numpy as np
 import pytest
+import written
 
 from holdfast.certificates import documents, verifier
 
@@ -31,10 +32,10 @@ def bare(tmp_path_factory):
 
 
 def test_one_command_checks_it(bare, tmp_path):
-    (tmp_path / "verifier.py").write_bytes(Path(verifier.__file__).read_bytes())
+    written.alone(tmp_path / "alone")
     assert subprocess.run([bare, "-c", "import holdfast"], capture_output=True, check=False).returncode == 1
     done = subprocess.run(
-        [bare, "verifier.py", CUBE, "--sample", "10"], cwd=tmp_path, capture_output=True, text=True, check=False
+        [bare, "verifier.py", CUBE, "--sample", "10"], cwd=tmp_path / "alone", capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert "Leaves accepted: 80, rejected: 0" in done.stdout
