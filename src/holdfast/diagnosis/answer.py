@@ -15,6 +15,7 @@ from holdfast.faults.log import Log
 from holdfast.result import Result
 
 _ENOUGH = 2.0  # of its tracking bound: a reference that moves by less shows no lock
+_FASTER = 1.1  # than in calibration
 _LEVELS = {"torque": "torques", "tracking": "joint sensors", "tool": "the measured tool pose"}
 _KINDS = {
     "locked": "is locked",
@@ -56,9 +57,9 @@ class Diagnosis(Result):
 
     @cached_property
     def beyond(self) -> tuple[str, ...]:
-        """Joints that were asked to move faster than in calibration: the bounds do not hold for them."""
+        """Joints that were asked to move more than 10 % faster than in calibration: the bounds do not hold for them."""
         speed = np.nanmax(np.abs(np.diff(self.log.q_ref, axis=0)), axis=0) * self.bounds.rate
-        fast = speed > 1.01 * self.bounds.speed + 1e-9
+        fast = speed > _FASTER * self.bounds.speed + 1e-9
         return tuple(name for name, faster in zip(self.arm.joint_names, fast, strict=True) if faster)
 
     @property

@@ -147,11 +147,12 @@ def _joint_fault(arm: Arm, window: Window, i: int, *, coulomb: Array, noise: flo
     travel, wanted = np.ptp(window.q[rest, i]), np.ptp(window.reference[rest, i])
     still = bool(travel < _STILL and travel < _PART * wanted + _NOISY * noise)
     others = np.delete(size, i)
-    evidence = [f"{size[i]:.3g} times its bound, the next joint {others.max(initial=0.0):.3g}"]
-    evidence.append(f"it moved by {travel:.3g}, its reference by {wanted:.3g}")
+    evidence = [f"its residuals are {size[i]:.3g} times their bounds, those of the next joint {others.max(initial=0.0):.3g}"]
+    unit, after = arm.joints[i].unit, 1e3 * CLASSIFY
+    evidence.append(f"within {after:.0f} ms it moved by {travel:.3g} {unit}, its reference by {wanted:.3g} {unit}")
 
     def verdict(kind: str, candidates: Sequence[str], loss: float = np.nan) -> Verdict:
-        more = () if np.isnan(loss) else (f"lost {loss:.0%} of its torque",)
+        more = () if np.isnan(loss) else (f"its motor lost {loss:.0%} of its torque",)
         return Verdict(
             True,
             window.time,

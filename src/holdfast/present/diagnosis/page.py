@@ -37,7 +37,8 @@ def figures(found: Diagnosis) -> dict[str, Figure]:
             axes.axhline(1.0, color=style.INK, linewidth=1.0, linestyle="--")
             if v.alarm:
                 axes.axvline(v.time, color=style.INK, linewidth=1.0)
-                axes.text(v.time, 1.02, f" alarm, {v.time:.3f} s", transform=axes.get_xaxis_transform(), fontsize=8)
+                if axes is panels[0]:
+                    axes.text(v.time, 1.02, f" alarm, {v.time:.3f} s", transform=axes.get_xaxis_transform(), fontsize=8)
             axes.set(title=_TITLES[name], ylabel="of the bound", yscale="log", ylim=(_LEAST, None))
             if v.joint is not None and name != "tool":
                 axes.legend(loc="lower left", fontsize=8)
