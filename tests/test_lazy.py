@@ -25,6 +25,8 @@ MODULES = {
     "certificates",
     "closed_form",
     "control",
+    "diagnosis",
+    "faults",
     "indices",
     "keep",
     "paths",

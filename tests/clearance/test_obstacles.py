@@ -51,7 +51,7 @@ def covered(arm, capsules, cell, q):
 @pytest.fixture(scope="module")
 def scene(generator):
     rng = generator("obstacles")
-    arm = oracles.random_arm(rng, types="RPRR", limits=2.0)
+    arm = oracles.random_arm(rng, types="RPRR", limits=2.0, base=False)
     return arm, hf.Capsules.along(arm, 0.03), random_cell(rng)
 
 

@@ -25,6 +25,7 @@ FILES = {
     "line.yaml": "angles: deg\nline: {from: {xyz: [0.45, -0.1, 0.4], urdf_rpy: [180, 0, 0]}, to: {xyz: [0.45, 0.1, 0.4]}}\n"
     "timing: {duration: 2}\n",
     "bench.yaml": "objects: {table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.6, 0, -0.02]}}}\n",
+    "faults.yaml": "faults: [{kind: locked, onset: {uniform: [0.3, 1.5]}}]\n",
     "cell.yaml": "box: {center: [0.5, 0, 0.5], size: 0.1, rpy_center: [180, 0, 0], rpy_size: 10}\nangles: deg\n",
 }
 STUDY = "study new tools.yaml --arm planar-3r --poses 64 --chunk 32"
@@ -59,7 +60,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
-QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "free-swing"}
+QUICK = {"arms", "ceiling", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {
     "certify reach",
     "certify ceiling",
@@ -67,8 +68,12 @@ QUICK |= {
     "certify structural-zero",
     "certify out-of-reach",
     "certify tolerant",
+    "certify path",
     "certificate check",
     "certificate show",
+    "records list",
+    "records show",
+    "records check",
     "study new",
     "study run",
     "teleop allocation",

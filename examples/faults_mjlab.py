@@ -1,0 +1,32 @@
+"""Faults in mjlab: what happens to which joint of which environment, written into the rows of its model.
+
+UNTESTED: written from mjlab's documentation; nobody has run it. What of each kind goes where is as in
+``holdfast.faults.FaultInjector``; here are locked joints and friction.
+"""
+
+import holdfast as hf
+
+LOCKED, FRICTION = (hf.faults.KINDS.index(kind) for kind in ("locked", "friction"))
+FIELDS = ("dof_frictionloss", "dof_damping", "jnt_range", "jnt_limited", "jnt_solref", "jnt_solimp")
+
+
+def prepare(env, faults, joints):
+    """Once, as the environments are built: rows of their own for every field that faults change."""
+    env.sim.expand_model_fields(FIELDS)
+    env.faults = faults.batch(joints, episodes=env.num_envs)
+
+
+def apply(env, ids, time, step):
+    """An event term, at every step: what begins in [time, time + step)."""
+    batch, model, data = env.faults, env.sim.model, env.sim.data
+    begins = (batch.onset >= time) & (batch.onset < time + step)
+    for e, j in zip(*begins.nonzero(), strict=True):
+        k = ids[j]
+        if batch.kind[e, j] == LOCKED:
+            q = float(data.qpos[e, model.jnt_qposadr[k]])
+            model.jnt_limited[e, k] = 1
+            model.jnt_range[e, k, 0], model.jnt_range[e, k, 1] = q - 1e-9, q + 1e-9
+        elif batch.kind[e, j] == FRICTION:
+            coulomb, viscous = batch.parameter[e, j, :2]
+            model.dof_frictionloss[e, model.jnt_dofadr[k]] += 0 if coulomb != coulomb else coulomb  # NaN: not given
+            model.dof_damping[e, model.jnt_dofadr[k]] += 0 if viscous != viscous else viscous

@@ -1,0 +1,179 @@
+"""One entry of a fault model: a family of faults, its joints, when and how badly."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Any, Literal, get_args
+
+from holdfast.errors import InputError
+from holdfast.faults.spread import Spread
+
+Kind = Literal[
+    "locked",
+    "limp",
+    "weak",
+    "friction",
+    "reduced_range",
+    "reduced_speed",
+    "sensor_bias",
+    "sensor_drift",
+    "sensor_freeze",
+    "sensor_noise",
+    "command_dropout",
+    "slipping_clutch",
+]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+SENSOR = frozenset({"sensor_bias", "sensor_drift", "sensor_freeze", "sensor_noise"})
+TORQUE = frozenset({"limp", "weak", "friction"})
+# The parameters of each kind: sets of names of which one is given, the whole of it unless it says otherwise.
+PARAMETERS: dict[str, tuple[tuple[str, ...], ...]] = {
+    "locked": (("at",),),
+    "weak": (("gain",), ("ceiling",)),
+    "friction": (("coulomb", "viscous"),),
+    "reduced_range": (("travel",), ("lower", "upper")),
+    "reduced_speed": (("velocity",),),
+    "sensor_bias": (("bias",),),
+    "sensor_drift": (("rate",),),
+    "sensor_noise": (("deviation",),),
+}
+SIGNED = frozenset({"travel", "bias", "rate"})  # the sign is drawn
+_PARTIAL = frozenset({"coulomb", "viscous", "lower", "upper"})  # one of the two is enough
+# Least and greatest of each number, and whether the ends belong to it.
+_BOUNDS: dict[str, tuple[float, float, bool]] = {
+    "gain": (0.0, 1.0, False),
+    "ceiling": (0.0, 1.0, False),
+    "coulomb": (0.0, math.inf, True),
+    "viscous": (0.0, math.inf, True),
+    "travel": (0.0, math.inf, True),
+    "velocity": (0.0, math.inf, False),
+    "bias": (0.0, math.inf, True),
+    "rate": (0.0, math.inf, True),
+    "deviation": (0.0, math.inf, True),
+    "onset": (0.0, math.inf, True),
+    "duration": (0.0, math.inf, True),
+}
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One entry: a family of faults. Functions such as :func:`holdfast.faults.locked` make one.
+
+    A number may be drawn in every episode: a tuple ``(a, b)`` and ``{"uniform": [a, b]}`` are even between a and b,
+    ``{"loguniform": [a, b]}`` even in the logarithm, ``{"exponential": mean}``, and ``{"choice": [a, b, ...]}``.
+
+    Attributes:
+        kind: See :func:`holdfast.faults.locked` and the others.
+        parameters: The kind's, by name: rad, N m, rad/s (m, N, m/s of prismatic joints).
+        joints: Which it may be, by name; None: any.
+        weights: How likely each of ``joints`` is, relative to the others; None: all alike.
+        probability: That it happens in an episode.
+        onset: When it begins, s.
+        duration: For how long, s; None: for ever.
+        rate_per_hour: Of a fault that comes at any time alike, in place of ``onset``.
+        together: Joints that have it at once.
+        on, off: Of a fault that comes and goes: mean times with and without it, s; None: it stays.
+
+    Raises:
+        InputError: An unknown kind, parameter or law, numbers out of bounds, or what does not go together.
+    """
+
+    kind: Kind
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    joints: Sequence[str] | str | None = None
+    _: KW_ONLY
+    weights: Sequence[float] | None = None
+    probability: float = 1.0
+    onset: Any = None
+    duration: Any = None
+    rate_per_hour: float | None = None
+    together: int = 1
+    on: float | None = None
+    off: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise InputError(f"kind '{self.kind}' is not known; use {', '.join(KINDS)}")
+        self._set("joints", (self.joints,) if isinstance(self.joints, str) else self.joints and tuple(self.joints))
+        self._set("weights", self.weights and tuple(map(float, self.weights)))
+        self._check_joints()
+        self._set("parameters", self._read_parameters())
+        self._check_time()
+
+    def _set(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, value)
+
+    def _check_joints(self) -> None:
+        if self.joints is not None and not (self.joints and len(set(self.joints)) == len(self.joints)):
+            raise InputError(f"joints of '{self.kind}' are {list(self.joints)}; name each once, or leave them out for all")
+        if self.weights is not None:
+            if self.joints is None or len(self.weights) != len(self.joints):
+                raise InputError(f"'{self.kind}' has {len(self.weights)} weights; give one for each of its joints, by name")
+            if not all(math.isfinite(w) and w >= 0 for w in self.weights) or not any(self.weights):
+                raise InputError(f"weights of '{self.kind}' are {list(self.weights)}; they must be 0 or more, one above 0")
+        most = sum(w > 0 for w in self.weights) if self.weights else len(self.joints) if self.joints else math.inf
+        if isinstance(self.together, bool) or self.together != int(self.together) or not 1 <= self.together <= most:
+            raise InputError(f"together of '{self.kind}' is {self.together}; it is a whole number, 1 to that of its joints")
+
+    def _read_parameters(self) -> dict[str, Any]:
+        given = {name: value for name, value in self.parameters.items() if value is not None}
+        choices = PARAMETERS.get(self.kind, ())
+        known = [name for names in choices for name in names]
+        for name in given:
+            if name not in known:
+                takes = f"takes {', '.join(known)}" if known else "takes no parameter"
+                raise InputError(f"'{self.kind}' has no parameter '{name}'; it {takes}")
+        if self.kind == "locked" and given.get("at", "here") == "here":
+            return {"at": "here"}
+        fits = [names for names in choices if set(given) and set(given) <= set(names)]
+        whole = [names for names in fits if set(given) == set(names) or set(names) <= _PARTIAL]
+        if choices and not whole:
+            raise InputError(f"'{self.kind}' must have {' or '.join(' and '.join(names) for names in choices)}")
+        # In the order of the table: which uniform number draws which does not depend on the caller's order.
+        return {name: self._bounded(name, given[name]) for name in known if name in given}
+
+    def _bounded(self, name: str, value: Any) -> Spread:
+        spread = Spread.of(value, f"{name} of '{self.kind}'")
+        least, most, closed = _BOUNDS.get(name, (-math.inf, math.inf, True))
+        low, high = spread.ends
+        inside = least <= low and high <= most if closed else least < low and (high < most or math.isinf(most))
+        if spread.law == "exponential":
+            inside = math.isinf(most)
+        if not inside:
+            wanted = f"between {least:g} and {most:g}" if math.isfinite(most) else "0 or more" if closed else f"above {least:g}"
+            sign = "; its sign is drawn" if name in SIGNED else ""
+            shown = f"{low:g}" if low == high else f"from {low:g} to {high:g}"
+            raise InputError(f"{name} of '{self.kind}' is {shown}; it must be {wanted}{sign}")
+        return spread
+
+    def _check_time(self) -> None:
+        if not (isinstance(self.probability, (int, float)) and 0 <= self.probability <= 1):
+            raise InputError(f"probability of '{self.kind}' is {self.probability}; it must be between 0 and 1")
+        for name in ("rate_per_hour", "on", "off"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise InputError(f"{name} of '{self.kind}' is {value:g}; it must be a finite number above 0")
+        if self.rate_per_hour is not None and self.onset is not None:
+            raise InputError(f"'{self.kind}' has both onset and rate_per_hour; the rate says when it begins: give one of them")
+        if (self.on is None) != (self.off is None):
+            raise InputError(f"'{self.kind}' has only one of on and off; a fault that comes and goes has both")
+        self._set("onset", None if self.rate_per_hour else self._bounded("onset", 0.0 if self.onset is None else self.onset))
+        self._set("duration", None if self.duration is None else self._bounded("duration", self.duration))
+
+    def stored(self) -> dict[str, Any]:
+        """As files have it; what is as it comes is left out."""
+        data: dict[str, Any] = {"kind": self.kind}
+        values = {
+            "joints": self.joints and list(self.joints),
+            "weights": self.weights and list(self.weights),
+            "probability": None if self.probability == 1 else self.probability,
+            "together": None if self.together == 1 else self.together,
+            "rate_per_hour": self.rate_per_hour,
+            "onset": None if self.onset is None or self.onset == Spread("number", (0.0,)) else self.onset.stored(),
+            "duration": self.duration and self.duration.stored(),
+            "on": self.on,
+            "off": self.off,
+            **{name: value if value == "here" else value.stored() for name, value in self.parameters.items()},
+        }
+        return data | {name: value for name, value in values.items() if value is not None and value != "here"}

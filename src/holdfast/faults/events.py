@@ -1,0 +1,69 @@
+"""What happens in one episode: faults with their joints, times and numbers."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Any
+
+from holdfast.faults.entry import Kind
+
+
+@dataclass(frozen=True)
+class FaultEvent:
+    """One fault in one episode.
+
+    Attributes:
+        kind: One of the kinds, as ``locked``.
+        joint: Its name.
+        onset: When it begins, s.
+        end: When it is over, s; infinite if it stays.
+        parameters: Those of the kind by name, with their sign: rad, N m, rad/s (m, N, m/s of prismatic joints).
+    """
+
+    kind: Kind
+    joint: str
+    onset: float
+    _: KW_ONLY
+    end: float = math.inf
+    parameters: Mapping[str, float | str] = field(default_factory=dict, hash=False)
+
+    def active(self, time: float) -> bool:
+        """Whether it is there at a time, s."""
+        return self.onset <= time < self.end
+
+    def stored(self) -> dict[str, Any]:
+        """In types that JSON has; ``end`` is None for a fault that stays."""
+        end = None if math.isinf(self.end) else self.end
+        return {"kind": self.kind, "joint": self.joint, "onset": self.onset, "end": end, **self.parameters}
+
+    @classmethod
+    def from_stored(cls, data: Mapping[str, Any]) -> FaultEvent:
+        """What :meth:`stored` gave."""
+        rest = {name: value for name, value in data.items() if name not in ("kind", "joint", "onset", "end")}
+        end = math.inf if data["end"] is None else data["end"]
+        return cls(data["kind"], data["joint"], data["onset"], end=end, parameters=rest)
+
+    def sentence(self) -> str:
+        """For people: ``panda_joint4: weak from 0.812 s on (gain 0.41)``."""
+        numbers = ", ".join(f"{name} {x}" if isinstance(x, str) else f"{name} {x:.4g}" for name, x in self.parameters.items())
+        until = "on" if math.isinf(self.end) else f"to {self.end:.4g} s"
+        return f"{self.joint}: {self.kind} from {self.onset:.4g} s {until}{f' ({numbers})' if numbers else ''}"
+
+
+class FaultEvents(tuple[FaultEvent, ...]):
+    """The faults of an episode, a tuple in the order of onset, joint and kind."""
+
+    __slots__ = ()
+
+    def __new__(cls, events: Iterable[FaultEvent] = ()) -> FaultEvents:  # noqa: D102
+        return super().__new__(cls, sorted(events, key=lambda e: (e.onset, e.joint, e.kind, e.end)))
+
+    @property
+    def id(self) -> str:
+        """SHA-256, in hexadecimal digits, of the events as JSON with sorted keys and no spaces: alike on every machine."""
+        text = json.dumps([event.stored() for event in self], sort_keys=True, separators=(",", ":"), allow_nan=False)
+        return hashlib.sha256(text.encode()).hexdigest()

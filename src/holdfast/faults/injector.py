@@ -1,0 +1,297 @@
+"""Faults in any MuJoCo model: only fields of the model change, nothing is compiled again, and all of it can be undone.
+
+Source: derived here; how the ways of locking a joint compare was measured in simulation (see the how-to page).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.mjcf import import_mujoco
+from holdfast.errors import InputError
+from holdfast.faults.actuators import Actuators
+from holdfast.faults.entry import TORQUE
+from holdfast.faults.events import FaultEvent, FaultEvents
+from holdfast.faults.scheme import Faults, Jointed, names_of
+
+Array = NDArray[np.float64]
+
+EARLY = 1e-9  # s: what begins at a step's time is not left to the next one
+SLACK = 1e-9  # rad or m to either side of a lock
+_FAR = 1e9  # rad or m: a stop where there is none
+_STIFF = 2.0  # time steps: the shortest time constant that MuJoCo's contacts keep stable
+_IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+_JOINT_FIELDS = ("jnt_limited", "jnt_range", "jnt_solref", "jnt_solimp", "jnt_actfrclimited", "jnt_actfrcrange")
+_DOF_FIELDS = ("dof_frictionloss", "dof_damping")
+_ACTUATOR_FIELDS = ("actuator_gainprm", "actuator_biasprm")
+_HOLDS = ("locked", "slipping_clutch")
+
+
+@dataclass
+class _Active:
+    """An event that is there: its joint's number, where that was at the onset, and what it holds."""
+
+    event: FaultEvent
+    joint: int
+    place: float
+    since: float
+    pending: bool = False  # a lock that waits for its angle
+    command: Array | None = None
+
+
+class FaultInjector:
+    """Puts faults into a MuJoCo model and takes them out again.
+
+    The caller's loop is ``reset(episode)``, then before each step ``before_step(time)``, after the controller has written
+    ``data.ctrl``; a controller that should see sensor faults takes its joint values from ``read``. A locked joint is held by
+    a pair of limits around where it is, and its momentum goes into the others as in an impact without rebound, unless the
+    model has active equality constraints.
+
+    Args:
+        model: ``mujoco.MjModel``; its joints are hinges or slides.
+        data: ``mujoco.MjData``.
+        joints: An arm, names of joints in the model, or None: all hinges and slides that have a name.
+        faults: A fault model, or the events of one episode.
+        horizon: s, the end of an episode, see :meth:`holdfast.faults.Faults.draw`.
+
+    Attributes:
+        joints: Names of the n joints.
+        events: Of this episode.
+        applied: Of the events that have begun the time of the step at which they took effect, s.
+
+    Raises:
+        InputError: A joint that the model does not have; a fault that it cannot have, as a weak motor without a motor.
+        HoldfastError: MuJoCo is not installed.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        data: Any,
+        joints: Jointed | Sequence[str] | None,
+        *,
+        faults: Faults | Sequence[FaultEvent],
+        horizon: float = math.inf,
+    ) -> None:
+        self._mujoco = mujoco = import_mujoco()
+        self.model, self.data, self.faults, self.horizon = model, data, faults, horizon
+        simple = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+        if joints is None:
+            here = [model.joint(k).name for k in range(model.njnt) if model.jnt_type[k] in simple]
+            joints = [name for name in here if name]
+        self.joints = names_of(joints)
+        self._ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in self.joints]
+        for name, k in zip(self.joints, self._ids, strict=True):
+            if k < 0 or model.jnt_type[k] not in simple:
+                raise InputError(f"the model has no hinge or slide '{name}'; give the names of joints that it has")
+        self._qpos, self._dofs = model.jnt_qposadr[self._ids], model.jnt_dofadr[self._ids]
+        self._motors = Actuators(mujoco, model, self._ids)
+        self._saved: list[tuple[str, Any, Any]] = []
+        self.events = FaultEvents()
+        self.applied: dict[FaultEvent, float] = {}
+        self.reset(0)
+
+    def reset(self, episode: int = 0) -> FaultEvents:
+        """Undo everything, and draw what happens in an episode; events that were given happen in each.
+
+        Raises:
+            InputError: A fault that the model cannot have.
+        """
+        self.restore()
+        self._save()
+        given = self.faults
+        if isinstance(given, Faults):
+            self.events = given.draw(self.joints, episode=episode, horizon=self.horizon)
+        else:
+            self.events = FaultEvents(given)
+        for event in self.events:
+            self._check(event)
+        self._active: list[_Active] = []
+        self.applied, self.time = {}, -math.inf
+        self._noise = np.random.default_rng(int(self.events.id[:16], 16))
+        self._look()
+        return self.events
+
+    def restore(self) -> None:
+        """Give the model back every number that it had, bit for bit."""
+        for name, rows, values in self._saved:
+            getattr(self.model, name)[rows] = values
+
+    def actuators_of(self, joint: str) -> NDArray[np.int64]:
+        """Numbers of the actuators of a joint, given by name."""
+        return self._motors.of(self.joints.index(joint))
+
+    @property
+    def places(self) -> dict[FaultEvent, float]:
+        """Where the joints of the active events were when these began, rad or m."""
+        return {one.event: one.place for one in self._active}
+
+    @property
+    def active(self) -> FaultEvents:
+        """The events that are there now."""
+        return FaultEvents(one.event for one in self._active)
+
+    def before_step(self, time: float) -> None:
+        """Let begin and end what does so by a time, s, and do what a fault does at every step."""
+        self.time = time
+        if time >= self._next:
+            self._change(time)
+        for one in self._every:
+            self._work(one)
+
+    def read(self, q: ArrayLike, *, reference: ArrayLike | None = None) -> Array:
+        """What the sensors tell of the joints.
+
+        Args:
+            q: (n,) true values, rad and m.
+            reference: (n,) what the servos follow, which is what the sensor before a slipping clutch shows.
+
+        Returns:
+            (n,) readings.
+        """
+        told = np.array(q, dtype=np.float64)
+        for one in self._active:
+            j, numbers = one.joint, one.event.parameters
+            match one.event.kind:
+                case "sensor_bias":
+                    told[j] += float(numbers["bias"])
+                case "sensor_drift":
+                    told[j] += float(numbers["rate"]) * max(self.time - one.event.onset, 0.0)
+                case "sensor_freeze":
+                    told[j] = one.place
+                case "sensor_noise":
+                    told[j] += float(numbers["deviation"]) * self._noise.standard_normal()
+                case "slipping_clutch" if reference is not None:
+                    told[j] = np.asarray(reference, dtype=np.float64)[j]
+        return told
+
+    # ---- inside ------------------------------------------------------------------------------------------------------
+
+    def _save(self) -> None:
+        kinds = ((_JOINT_FIELDS, np.array(self._ids)), (_DOF_FIELDS, self._dofs), (_ACTUATOR_FIELDS, self._motors.all))
+        fields = [(name, rows) for names, rows in kinds for name in names]
+        self._saved = [(name, rows, getattr(self.model, name)[rows].copy()) for name, rows in fields]
+        self._motors.note()
+
+    def _check(self, event: FaultEvent) -> None:
+        if event.joint not in self.joints:
+            raise InputError(f"a fault names joint '{event.joint}'; the joints are {', '.join(self.joints)}")
+        j = self.joints.index(event.joint)
+        k, kind = self._ids[j], event.kind
+        if kind in TORQUE - {"friction"} or kind in ("reduced_speed", "command_dropout"):
+            self._motors.require(event)
+        if kind == "weak" and "gain" in event.parameters and self.model.jnt_actgravcomp[k]:
+            raise InputError(
+                f"the motor of '{event.joint}' compensates gravity inside MuJoCo, which no gain reaches; give the torque as a "
+                "control, or use ceiling"
+            )
+        if kind == "reduced_speed" or "ceiling" in event.parameters:
+            self._motors.effort(j, event)
+        at = event.parameters.get("at", "here")
+        if kind == "locked" and not isinstance(at, str) and self.model.jnt_limited[k]:
+            low, high = self.model.jnt_range[k]
+            if not low <= at <= high:
+                raise InputError(f"'{event.joint}' locks at {at:g}, beyond its limits {low:g} and {high:g}")
+
+    def _look(self) -> None:
+        """When something begins or ends next, and what has work at every step."""
+        begun = {id(one.event) for one in self._active}
+        ahead = [e.onset for e in self.events if e not in self.applied]
+        ahead += [e.end for e in self.events if id(e) in begun]
+        self._next = min(ahead, default=math.inf) - EARLY
+        each = ("reduced_speed", "command_dropout")
+        self._every = [one for one in self._active if one.pending or one.event.kind in each]
+
+    def _change(self, time: float) -> None:
+        qpos = self.data.qpos
+        self._active = [one for one in self._active if one.event.end > time + EARLY]
+        for event in self.events:
+            if event in self.applied or event.onset > time + EARLY:
+                continue
+            self.applied[event] = time
+            if event.end <= time + EARLY:
+                continue
+            j = self.joints.index(event.joint)
+            one = _Active(event, j, float(qpos[self._qpos[j]]), time)
+            at = event.parameters.get("at", "here")
+            if event.kind == "locked" and not isinstance(at, str):
+                one.pending, one.since = one.place != at, math.copysign(1.0, one.place - at)
+            if event.kind == "command_dropout":
+                one.command = self.data.ctrl[self._motors.of(j)].copy()
+            self._active.append(one)
+            if event.kind in _HOLDS and not one.pending:
+                self._stop(one)
+        self._apply()
+
+    def _apply(self) -> None:
+        """The model as it was, with all that is there now."""
+        self.restore()
+        for one in self._active:
+            self._put(one)
+        self._look()
+
+    def _put(self, one: _Active) -> None:
+        k, dof, m, numbers = self._ids[one.joint], self._dofs[one.joint], self.model, one.event.parameters
+        match one.event.kind:
+            case "locked" | "slipping_clutch" if not one.pending:
+                m.jnt_limited[k] = 1
+                m.jnt_range[k] = one.place - SLACK, one.place + SLACK
+                m.jnt_solref[k] = _STIFF * m.opt.timestep, 1.0
+                m.jnt_solimp[k] = _IMPEDANCE
+            case "limp":
+                m.jnt_actfrclimited[k], m.jnt_actfrcrange[k] = 1, (0.0, 0.0)
+            case "weak" if "gain" in numbers:
+                for name in _ACTUATOR_FIELDS:
+                    getattr(m, name)[self._motors.of(one.joint)] *= numbers["gain"]
+            case "weak":
+                most = float(numbers["ceiling"]) * self._motors.effort(one.joint, one.event)
+                m.jnt_actfrclimited[k], m.jnt_actfrcrange[k] = 1, (-most, most)
+            case "friction":
+                m.dof_frictionloss[dof] += float(numbers.get("coulomb", 0.0))
+                m.dof_damping[dof] += float(numbers.get("viscous", 0.0))
+            case "reduced_range":
+                low, high = m.jnt_range[k] if m.jnt_limited[k] else (-_FAR, _FAR)
+                travel = float(numbers.get("travel", 0.0))
+                if "travel" in numbers:
+                    low, high = (low, one.place + travel) if travel > 0 else (one.place + travel, high)
+                # A stop behind the joint would throw it: it begins where the joint is.
+                low = max(low, min(float(numbers.get("lower", low)), one.place))
+                high = min(high, max(float(numbers.get("upper", high)), one.place))
+                m.jnt_limited[k], m.jnt_range[k] = 1, (low, high)
+
+    def _work(self, one: _Active) -> None:
+        j = one.joint
+        if one.command is not None:
+            self.data.ctrl[self._motors.of(j)] = one.command
+        elif one.pending:
+            at, q = float(one.event.parameters["at"]), float(self.data.qpos[self._qpos[j]])
+            if (q - at) * one.since <= 0:
+                one.pending, one.place = False, at
+                self._stop(one)
+                self._apply()
+        else:
+            speed, effort = float(self.data.qvel[self._dofs[j]]), self._motors.effort(j, one.event)
+            most = effort * max(0.0, 1.0 - abs(speed) / float(one.event.parameters["velocity"]))
+            k = self._ids[j]
+            self.model.jnt_actfrclimited[k] = 1
+            self.model.jnt_actfrcrange[k] = (-effort, most) if speed > 0 else (-most, effort)
+
+    def _stop(self, one: _Active) -> None:
+        """Stop a joint and those that are held already as in an impact: the momenta of all others are kept."""
+        velocity = self.data.qvel
+        if not velocity.any() or (self.model.neq and self.data.eq_active.any()):
+            return
+        held = {self._dofs[a.joint] for a in self._active if a.event.kind in _HOLDS and not a.pending}
+        dofs = sorted(held | {self._dofs[one.joint]})
+        self._mujoco.mj_forward(self.model, self.data)
+        units = np.zeros((len(dofs), self.model.nv))
+        units[np.arange(len(dofs)), dofs] = 1.0
+        answers = np.zeros_like(units)
+        self._mujoco.mj_solveM(self.model, self.data, answers, units)
+        velocity -= answers.T @ np.linalg.solve(answers[:, dofs].T, velocity[dofs])

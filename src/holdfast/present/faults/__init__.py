@@ -1,0 +1,1 @@
+"""Words of faults that were drawn."""

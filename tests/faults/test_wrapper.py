@@ -1,0 +1,103 @@
+"""Faults in environments of Gymnasium, and whether a goal is feasible with them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.errors import InputError
+from holdfast.faults import FaultEvent, FaultWrapper, feasible
+
+gymnasium = pytest.importorskip("gymnasium")
+
+
+@pytest.fixture
+def reacher():
+    env = gymnasium.make("Reacher-v5")
+    yield env
+    env.close()
+
+
+def driven(env, steps, seed=3, **options):
+    observations = [env.reset(seed=seed, options=options or None)[0]]
+    actions = np.random.default_rng(seed).uniform(-1, 1, (steps, 2)).astype(np.float32)
+    return np.array(observations + [env.step(action)[0] for action in actions])
+
+
+def test_an_episode_again_is_the_same_bits_and_without_faults_that_of_the_environment(reacher):
+    plain = driven(reacher, 20)
+    faults = hf.faults.Faults([hf.faults.locked(["joint0", "joint1"], onset=(0.05, 0.2), probability=0.7)], seed=2)
+    env = FaultWrapper(reacher, faults)
+    runs = [driven(env, 20, episode=k) for k in (0, 1, 2, 0)]
+    assert runs[0].tobytes() == runs[3].tobytes()
+    for k, run in enumerate(runs[:3]):
+        happened = bool(faults.draw(["root", "joint0", "joint1"], episode=k))
+        assert (run.tobytes() == plain.tobytes()) != happened
+
+
+def test_a_locked_joint_and_what_is_told(reacher):
+    env = FaultWrapper(reacher, [FaultEvent("locked", "joint1", 0.105)])
+    driven(env, 5)
+    assert env.fault["active"] == []
+    data, places = env.unwrapped.data, []
+    for _ in range(100):
+        _, _, _, _, info = env.step(np.ones(2, dtype=np.float32))
+        places.append(data.qpos[1])
+    told = info["fault"]
+    assert told["active"] == ["joint1: locked"]
+    assert told["events"][0]["applied"] == pytest.approx(0.12)  # steps of 20 ms
+    assert (told["feasible"], len(told)) == ("unknown", 5)
+    assert np.ptp(places[10:]) < 3.3e-3
+    assert "fault" not in FaultWrapper(reacher, [], reveal=False).reset()[1]
+
+
+def test_a_sensor_fault_changes_only_its_entries(reacher):
+    env = reacher.unwrapped
+    env._get_obs = lambda: np.r_[env.data.qpos[:2], env.data.qvel[:2], np.cos(env.data.qpos[:2])]
+    wrapped = FaultWrapper(env, [FaultEvent("sensor_bias", "joint1", 0.0, parameters={"bias": 0.25})])
+    driven(wrapped, 3)
+    seen, true = wrapped.step(np.zeros(2, dtype=np.float32))[0], env._get_obs()
+    assert seen - true == pytest.approx([0, 0.25, 0, 0, 0, 0], abs=1e-12)
+
+
+def test_a_dropout_holds_the_action(reacher):
+    env = FaultWrapper(reacher, [FaultEvent("command_dropout", "joint0", 0.02)])
+    env.reset(seed=1)
+    for action in ([0.5, 0.1], [0.2, 0.3], [-0.9, 0.4]):
+        env.step(np.array(action, dtype=np.float32))
+    assert env.unwrapped.data.ctrl == pytest.approx([0.5, 0.4])
+
+
+def test_what_has_no_model_is_refused():
+    with pytest.raises(InputError, match="has no MuJoCo model"):
+        FaultWrapper(gymnasium.make("CartPole-v1"), [])
+
+
+def test_feasibility_against_the_closed_form_of_a_planar_arm(three, rng):
+    arm = three.arm  # three links of length 1
+    seen = set()
+    for _ in range(12):
+        angle, goal = rng.uniform(-3, 3), np.r_[rng.uniform(-2, 2, 2), 0.0]
+        found = feasible(arm, goal, {FaultEvent("locked", arm.joint_names[2], 0.0): angle}, restarts=20)
+        outer = np.hypot(1 + np.cos(angle), np.sin(angle))  # the last two links are one
+        want = abs(1 - outer) <= np.linalg.norm(goal) <= 1 + outer
+        assert (found.answer == "yes") == want
+        if want:
+            assert arm.forward_kinematics(found.q)[:3, 3] == pytest.approx(goal, abs=1e-5)
+            assert found.q[2] == angle
+        seen.add(want)
+    assert seen == {True, False}
+
+
+def test_a_weak_motor_must_carry_the_arm():
+    panda = hf.arms.load("panda")
+    goal = panda.forward_kinematics([0, 0.6, 0, -1.8, 0, 2.4, 0.8])[:3, 3]
+    event = FaultEvent("weak", "panda_joint2", 0.0, parameters={"gain": 0.9})
+    found = feasible(panda, goal, {event: 0.6})
+    assert found.answer == "yes"
+    assert abs(panda.gravity_torque(found.q)[1]) <= 0.9 * panda.joints[1].effort
+    none = feasible(panda, goal, {FaultEvent("weak", "panda_joint2", 0.0, parameters={"gain": 1e-6}): 0.6})
+    assert none.answer == "not found"
+    assert "gravity asks more" in none.why
+    assert feasible(panda, goal, {FaultEvent("limp", "panda_joint4", 0.0): -1.8}).answer == "yes"  # its brake holds it
