@@ -178,7 +178,8 @@ def proved(claim: PathClaim, halvings: int, end: float, stop: Callable[[], bool]
     def told() -> None:
         done = sum(slab.stop - slab.begin for lock in locks for slab in lock.march.proved) / (whole * len(locks))
         closed = sum(lock.march.closed for lock in locks) / (whole * len(locks))
-        tell(SearchState(done, closed - done, 1 - closed, sum(lock.march.nodes for lock in locks)))
+        nodes = sum(lock.march.nodes for lock in locks)
+        tell(SearchState(proved=done, undecided=closed - done, open=1 - closed, nodes=nodes))
 
     while (left := [lock for lock in locks if not lock.finished]) and monotonic() < end and not stop():
         for count, lock in zip(range(len(left), 0, -1), left, strict=True):
