@@ -3,7 +3,6 @@
 import gc
 import os
 import sys
-import zipfile
 from pathlib import Path
 
 import holdfast
@@ -12,12 +11,6 @@ HERE = Path(__file__).parent
 os.environ["HOLDFAST_NOTICES"] = "off"  # pages do not depend on how long something takes
 sys.path.insert(0, str(HERE / "_ext"))
 gc.set_threshold(100_000, 50, 100)  # of 700: in the trees of all pages there is little to find
-
-# The verifier's files, to run where nothing else of holdfast is; the page of certificates offers them.
-_verifier = HERE.parent / "src" / "holdfast" / "certificates"
-with zipfile.ZipFile(HERE / "verifier.zip", "w", zipfile.ZIP_DEFLATED) as _archive:
-    for _file in (_verifier / "verifier.py", *sorted((_verifier / "verified").glob("*.py"))):
-        _archive.writestr(zipfile.ZipInfo(_file.relative_to(_verifier).as_posix()), _file.read_bytes())
 
 project = "holdfast"
 author = "The holdfast developers"
@@ -38,6 +31,7 @@ extensions = [
     "moved",
     "sidebar",
     "wholes",
+    "verifier_archive",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True

@@ -96,7 +96,7 @@ def polished(minors: Minors, null: Array, deadline: float = np.inf) -> tuple[Arr
         answer = linprog(
             cost, A_ub=rows, b_ub=(squares[near] - best) / scale, bounds=[(-1, 1)] * columns + [(None, None)], method="highs-ds"
         )
-        if answer.status != 0:
+        if answer.fun is None or answer.x is None:
             radius *= 0.3
             continue
         gain = -answer.fun * scale

@@ -24,7 +24,7 @@ from holdfast.words import percent
 
 Array = NDArray[np.float64]
 
-_ATTAINED = 2e-8  # relative: the bounds by programs are rounded up there
+_ATTAINED = 1e-9  # relative: the bounds by programmes are rounded up in the last digits
 _ORTHONORMAL = 1e-12
 _MOST = 200  # joints
 
@@ -79,19 +79,19 @@ class Ceiling(Result):
 
     @cached_property
     def null_space(self) -> Array | None:
-        """(n, n - m) orthonormal columns, the best null space known; None where none is stored and no theorem gives one."""
+        """(n, n - m) orthonormal columns, the best null space known; None where nothing is stored and no theorem gives one."""
         return _best_null_space(self.n, self.m, self.k)
 
     @cached_property
     def best_known(self) -> float | None:
-        """What some Jacobian attains, the worst case of :attr:`null_space`; None where none is known."""
+        """What some Jacobian attains, the worst case of :attr:`null_space`; None where nothing is known."""
         if self.null_space is None:
             return None
         return min(worst_case(self.null_space, self.k), self.bound)  # which it passes by rounding where it attains it
 
     @property
     def attained(self) -> bool:
-        """True where some Jacobian reaches the bound (relative 2e-8): then it is the ceiling itself."""
+        """True where some Jacobian reaches the bound (relative 1e-9): then it is the ceiling itself."""
         return self.best_known is not None and self.best_known >= self.bound * (1 - _ATTAINED)
 
     @property
@@ -173,7 +173,7 @@ def look_up(*, n: int, m: int, k: int = 1) -> Ceiling:
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
             raise InputError(f"{name} is {value!r}; it must be a whole number")
     if m < 1:
-        raise InputError(f"a task of {m} rows is none; give m of 1 or more")
+        raise InputError(f"m is {m}; a task has at least 1 row")
     if n > _MOST:
         raise InputError(f"{n} joints are more than the {_MOST} that ceilings are computed for")
     if n <= m:
@@ -238,7 +238,10 @@ def table(m: int | None = None) -> CeilingTable:
 @cache
 def _stored() -> dict[tuple[int, int, int], list[list[float]]]:
     text = (Path(__file__).parent / "null_spaces.json").read_text(encoding="utf-8")
-    found = {tuple(map(int, key.split(","))): rows for key, rows in json.loads(text).items()}
+    found: dict[tuple[int, int, int], list[list[float]]] = {}
+    for key, rows in json.loads(text).items():
+        n, m, k = map(int, key.split(","))
+        found[n, m, k] = rows
     return dict(sorted(found.items(), key=lambda item: (item[0][1], item[0][2], item[0][0])))
 
 

@@ -21,7 +21,7 @@ def equal_rows(n: int, p: int) -> Array:
 def star(n: int) -> Array:
     """Orthonormal columns (n, 2): n lines of a plane with equal angles between neighbours."""
     angle = np.pi * np.arange(n) / n
-    return np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return np.asarray(np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
 def complement(columns: Array) -> Array:

@@ -55,7 +55,7 @@ def holds(n: int, signs: Signs) -> NDArray[np.bool_]:
     """Whether each row of signs (B, C(n, 3)) is of an oriented matroid: no relation has three products of one sign."""
     pairs, side = relations(n)
     products = signs[:, pairs[:, :, 0]] * signs[:, pairs[:, :, 1]] * side.astype(np.int8)
-    return (abs(products.sum(axis=2, dtype=np.int8)) == 1).all(axis=1)
+    return np.asarray((abs(products.sum(axis=2, dtype=np.int8)) == 1).all(axis=1))
 
 
 @cache

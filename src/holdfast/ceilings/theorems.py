@@ -22,7 +22,7 @@ THEOREMS = {
 }
 
 # Upper bounds by :mod:`holdfast.ceilings.arrangements`, replayed in balls and rounded up: n -> c(n, 3, 3).
-ARRANGEMENTS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897844}
+ARRANGEMENTS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
 
 
 class Bound(NamedTuple):

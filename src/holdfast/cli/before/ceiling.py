@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -26,6 +27,9 @@ def command(
     search: Annotated[
         float | None, typer.Option("--search", help="Seconds to search for a better null space.", show_default=False)
     ] = None,
+    arm: Annotated[
+        Path | None, typer.Option("--arm", help="Write a revolute arm that attains the best known value.", show_default=False)
+    ] = None,
     seed: SeedOption = 0,
     json_: JsonOption = False,
 ) -> None:
@@ -41,6 +45,10 @@ def command(
     if joints is None or rows is None:
         raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
     found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
+    if arm is not None:
+        made = hf.designs.synthesise(found, task=_task(rows, found.m), seed=seed)
+        printed(made, json_, [hf.designs.written(made.arms[0], arm)])
+        return
     if search is None:
         printed(found.verify(proof=True) if verify else found, json_)
         return
@@ -49,6 +57,11 @@ def command(
             n=found.n, m=found.m, k=found.k, seed=seed, seconds=search, progress=lambda value: now(f"best so far {value:.8f}")
         )
     printed(better, json_)
+
+
+def _task(text: str, rows: int) -> str:
+    """The task that arms are made for, by its name or its rows."""
+    return text if text in TASKS else {2: "planar", 3: "position", 6: "pose"}.get(rows, text)
 
 
 def _rows(text: str) -> int:
