@@ -63,6 +63,7 @@ PAPERS = {
     "english1998": "English, Maciejewski 1998 {cite}`English1998`",
     "goel2003": "Goel, Maciejewski, Balakrishnan, Proctor 2003 {cite}`Goel2003`",
     "goel2005": "Goel, Maciejewski, Balakrishnan 2005 {cite}`Goel2005`",
+    "certificates": "Beliefs and gaps that certificates settle",
 }
 INTRODUCTION = """\
 <!-- Written by `python -m papers.claims` from papers/*/RESULTS.md: change those, not this page. -->
@@ -75,7 +76,8 @@ table again and writes it, with the figures, into `papers/NAME/RESULTS.md`.
 
 These papers are the ground of holdfast, and most of what they say holds. Where a statement does not hold *as it
 is written*, the row says how it can be read so that it does. Scans and lost displays make some places hard to read;
-where a number depends on our reading, the row says so.
+where a number depends on our reading, the row says so. The last section has popular beliefs beside the papers' statements:
+there each word in bold is proved by a [certificate](certificates.md), where a sample can only say that it found no exception.
 
 | verdict | it means |
 |---|---|

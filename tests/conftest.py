@@ -48,6 +48,7 @@ def pytest_configure(config):
             _MADE.append(folder)
         os.environ["HOLDFAST_CACHE"] = folder
     config.addinivalue_line("markers", "interpreted: kernels made in the test run on CasADi's machine; for arms of its own.")
+    config.addinivalue_line("markers", "gpu: needs an NVIDIA GPU and its driver.")
     config.addinivalue_line("markers", "rough: figures of its pages are not laid out; others of their kind are.")
     # Node is installed beside Python, whether or not the environment was activated.
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"

@@ -28,6 +28,7 @@ MODULES = [
     "holdfast.indices",
     "holdfast.indices.susceptibility",
     "holdfast.keep",
+    "holdfast.frameworks",
     "holdfast.kernels",
     "holdfast.paths",
     "holdfast.report",

@@ -81,8 +81,9 @@ def moved(bent, generator):
     return at
 
 
-@pytest.mark.parametrize("task", ["position", "pose"])
-@pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
+@pytest.mark.parametrize(
+    ("size", "task"), [(EXACT[0], "pose"), (ROUNDED[1], "pose"), (EXACT[1], "position"), (ROUNDED[0], "position")]
+)
 def test_motions(moved, task, size):
     own, other = moved(task, 1.0), moved(task, size)
     assert (own.code == Outcome.CONVERGED).any()
@@ -97,7 +98,7 @@ def test_motions(moved, task, size):
     np.testing.assert_allclose(own.x_final[rest], resized(other.x_final[rest], 1 / size), atol=1e-6)
 
 
-@pytest.mark.parametrize("size", [*EXACT, *ROUNDED, 1e-6, 1e6])
+@pytest.mark.parametrize("size", [*EXACT, 1e-6, 1e6])
 def test_runs_that_converge_are_not_called_stuck(links, rng, size):
     """The failed arm is a planar 2R whose target is in its ring: it converges but for sinks, which this target has none of."""
     q0 = np.column_stack([rng.uniform(-np.pi, np.pi, 30), np.full(30, np.pi / 4), rng.uniform(-np.pi, np.pi, 30)])

@@ -227,8 +227,12 @@ def rule(borders: list[Border], lines: int, barred: int) -> Claim:
         f"self-motion is below {flattest:.0e} of that outside; the arm is singular at none (smallest singular value of J "
         f"{nearest:.2f} and above)",
         "no exception found among these borders, each an algorithmic singularity (by bisection in closed form, no controller "
-        "in between); this does not prove 'always'",
-        Verdict.PARTLY,
+        "in between). That there is none is a theorem, derived here: as many swing angles s as the self-motion has dimensions, "
+        "with s = 0. Where neither J nor ds/dt along the self-motion loses rank, implicit functions give every neighbouring "
+        "target a configuration with s = 0, so this is no border. At a border J is singular (kinematic), or ds/dt is, and with "
+        "it the curvature 2 (ds/dt)^T (ds/dt) of the cost (algorithmic). It takes an arm away from joint limits and s that can "
+        "be differentiated: no outer part is balanced about its joint",
+        Verdict.HOLDS,
     )
 
 

@@ -1,5 +1,6 @@
 from holdfast import arms as arms
 from holdfast import bench as bench
+from holdfast import ceilings as ceilings
 from holdfast import cell as cell
 from holdfast import certificates as certificates
 from holdfast import control as control
@@ -60,6 +61,7 @@ from holdfast.errors import StoreError as StoreError
 from holdfast.errors import TaskError as TaskError
 from holdfast.failures import Degraded as Degraded
 from holdfast.indices import susceptibility as susceptibility
+from holdfast.kernels import set_backend as set_backend
 from holdfast.kernels import set_threads as set_threads
 from holdfast.motion import Trajectory as Trajectory
 from holdfast.motion import follow as follow

@@ -86,8 +86,9 @@ def test_the_judge_looks_between_waypoints_of_a_path(draw):
 
 
 def test_where_every_case_is_proved_infeasible_there_is_no_share_of_the_others():
-    counts = {"solved": 0, "refused": 0, "proved": 4, "argued": 0, "undecided": 0, "feasible": 0, "contradictions": 0}
-    score = hf.bench.Score(task="line", method="recover", in_cell=False, cases=4, seconds=np.ones(4), **counts)
+    counts = {"solved": 0, "refused": 0, "proved": 4, "within": 4, "argued": 0, "undecided": 0, "feasible": 0}
+    times = {"seconds": np.ones(4), "processor": np.ones(4)}
+    score = hf.bench.Score(task="line", method="recover", in_cell=False, cases=4, contradictions=0, **times, **counts)
     assert score.success_of_feasible is None
     assert score.success.value == 0
     assert score.decided.value == 1

@@ -15,8 +15,9 @@ from scipy.optimize import least_squares
 import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, verifier
-from holdfast.certificates.search import Search
+from holdfast.certificates.target_boxes.search import Search
 from holdfast.certificates.taylor import Chain, Form, Reach
+from holdfast.certificates.tree import undecided
 from holdfast.certificates.verifier import per_cent
 from holdfast.errors import InputError
 from holdfast.kernels import set_threads
@@ -201,7 +202,7 @@ def test_what_is_proved_first(three):
     root = np.vstack([claim.box, claim.angle])
     search = Search(Reach(three, 2, 1, claim.limits), root, 8, 0)
     shares = []
-    search.run(tell=lambda closed: shares.append((closed, search.nodes, float(1 - search.tree.undecided))))
+    search.run(tell=lambda closed: shares.append((closed, search.nodes, float(1 - undecided(search.tree.in_order()[0])))))
     closed, nodes, proved = np.array(shares).T
     assert (np.diff(closed) >= 0).all()
     assert (np.diff(proved) >= 0).all()

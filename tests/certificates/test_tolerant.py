@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from fractions import Fraction
 from itertools import count
 
@@ -69,6 +70,31 @@ def test_what_is_undecided_counts_in_the_worst_part(three, tmp_path):
         "a-b-lock-of-joint-1.certificate",
         "a-b-lock-of-joint-2.certificate",
     ]
+
+
+def test_one_file_holds_all_parts(proof, tmp_path):
+    whole = proof.write(tmp_path / "box.zip")
+    assert whole.read_bytes() == proof.write(tmp_path / "again.zip").read_bytes()
+    check = hf.check_certificate(whole, sample=1)
+    assert (check.tolerant, check.rejected, len(check.parts)) == (1, 0, 4)
+    with zipfile.ZipFile(whole) as archive:
+        held = {name: archive.read(name) for name in archive.namelist()}
+    first, last = next(iter(held)), list(held)[-1]
+    for name, text, said in (
+        (last, None, "cannot be read"),
+        (last, held[first], "is not the part"),
+        (first, b"{", "cannot be"),
+    ):
+        with zipfile.ZipFile(tmp_path / "forged.zip", "w") as archive:
+            for key, value in (held | {name: text}).items():
+                if value is not None:
+                    archive.writestr(key, value)
+        with pytest.raises(InputError, match=said):
+            hf.check_certificate(tmp_path / "forged.zip")
+    for data in (whole.read_bytes()[:-30], b"PK"):
+        (tmp_path / "broken.zip").write_bytes(data)
+        with pytest.raises(InputError, match="cannot be read"):
+            hf.check_certificate(tmp_path / "broken.zip")
 
 
 def test_what_is_stopped_or_out_of_time_keeps_what_it_has(three, tmp_path):

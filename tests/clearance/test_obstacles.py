@@ -51,7 +51,7 @@ def covered(arm, capsules, cell, q):
 @pytest.fixture(scope="module")
 def scene(generator):
     rng = generator("obstacles")
-    arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
+    arm = oracles.random_arm(rng, types="RPRR", limits=2.0, base=False)
     return arm, hf.Capsules.along(arm, 0.03), random_cell(rng)
 
 
@@ -85,7 +85,7 @@ def test_gradient_agrees_with_differences(rng, scene):
     assert np.quantile(error, 0.97) < 1e-6  # the rest are where two pairs tie within the step, or at an edge
 
 
-@pytest.mark.parametrize("types", ["RRPRRR", "RRRRRRR"])
+@pytest.mark.parametrize("types", ["RPRR", "RRRR"])
 def test_no_distance_from_an_object_changes_faster_than_its_bound(rng, types):
     arm = oracles.random_arm(rng, types=types, limits=2.0)
     clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))

@@ -66,7 +66,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
-QUICK = {"arms", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
+QUICK = {"arms", "ceiling", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {
     "certify reach",
     "certify ceiling",
@@ -74,8 +74,12 @@ QUICK |= {
     "certify structural-zero",
     "certify out-of-reach",
     "certify tolerant",
+    "certify path",
     "certificate check",
     "certificate show",
+    "records list",
+    "records show",
+    "records check",
     "study new",
     "study run",
     "teleop allocation",

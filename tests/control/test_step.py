@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.kernels import llvm_backend
+from holdfast.kernels.llvm import machine_code
 from holdfast.motion import GradientProjection
 
 
@@ -56,7 +56,7 @@ def test_a_step_never_compiles(kind, rng, monkeypatch, tmp_path):
     def never(*_):
         raise AssertionError("compiled in a control loop")
 
-    monkeypatch.setattr(llvm_backend, "compile_program", never)
-    monkeypatch.setattr(llvm_backend, "Code", never)
+    monkeypatch.setattr(machine_code, "compile_program", never)
+    monkeypatch.setattr(machine_code, "Code", never)
     for k in range(200):
         assert np.isfinite(law.step(q + 1e-3 * k, v)).all()

@@ -94,7 +94,7 @@ def test_refusals(tmp_path: Path) -> None:
             Memory(tmp_path / "run", PLAN)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "thesis.txt").write_text("do not touch")
-    with pytest.raises(hf.StoreError, match="holds no search of designs; give a new or empty folder"):
+    with pytest.raises(hf.StoreError, match="holds no search; give a new or empty folder"):
         Memory(tmp_path / "other", PLAN)
     with pytest.raises(hf.StoreError, match="cannot write to"):
         Memory(tmp_path / "other" / "thesis.txt" / "run", PLAN)

@@ -267,7 +267,7 @@ DAMAGED = {
     "a list": lambda text: "[1, 2]",
     "a number": lambda text: "3",
     "other format": lambda text: text.replace("holdfast-run", "someone-else"),
-    "other version": lambda text: text.replace('"version": 2', '"version": 3'),
+    "other version": lambda text: text.replace('"version": 3', '"version": 4'),
     "nested too deep": lambda text: "[" * 100_000,
 }
 
@@ -285,8 +285,8 @@ def test_a_damaged_run_file_is_a_sentence(how, folder):
         message = sentence(caught)
         assert str(folder) in message
         if how == "other version":
-            assert "format 3" in message
-            assert "formats up to 2" in message
+            assert "format 4" in message
+            assert "formats up to 3" in message
     assert snapshot(folder) == before
 
 

@@ -9,7 +9,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from holdfast.kernels import Kernel, cache, llvm_backend
+from holdfast.kernels import Kernel, cache
+from holdfast.kernels.llvm import machine_code
 
 
 @pytest.fixture
@@ -22,13 +23,13 @@ def folder(tmp_path, monkeypatch):
 def compilations(monkeypatch):
     """Names of the kernels compiled during the test."""
     names: list[str] = []
-    compile_program = llvm_backend.compile_program
+    compile_program = machine_code.compile_program
 
     def counting(program, *level):
         names.append(program.name)
         return compile_program(program, *level)
 
-    monkeypatch.setattr(llvm_backend, "compile_program", counting)
+    monkeypatch.setattr(machine_code, "compile_program", counting)
     return names
 
 
@@ -51,7 +52,7 @@ def test_the_second_build_loads_and_computes_the_same_bits(folder, compilations,
     def never(program, *level):
         raise AssertionError("compiled again")
 
-    monkeypatch.setattr(llvm_backend, "compile_program", never)
+    monkeypatch.setattr(machine_code, "compile_program", never)
     np.testing.assert_array_equal(build(name="another name, the same computation")(X), first)
     assert compilations == ["cached"]
 
@@ -186,7 +187,7 @@ def test_nothing_in_a_file_is_executed_but_a_kernel_of_this_machine(folder, comp
     build()
     (file,) = files(folder)
     assert file.read_bytes().startswith(b"holdfast kernel 1\n")
-    assert file.name == cache.key(build().program.digest, 1, llvm_backend.host().machine.lanes)
+    assert file.name == cache.key(build().program.digest, 1, machine_code.host().machine.lanes)
 
 
 def test_the_folder_has_a_bound(folder, monkeypatch):

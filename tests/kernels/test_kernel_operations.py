@@ -8,7 +8,7 @@ import pytest
 from scipy.special import erf
 
 from holdfast.kernels import Kernel
-from holdfast.kernels.llvm_ir import OPERATIONS
+from holdfast.kernels.llvm.translation import OPERATIONS
 from holdfast.kernels.program import OP_NAMES
 
 ANY = (-5.0, 5.0)

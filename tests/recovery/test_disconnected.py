@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import label
@@ -11,8 +13,8 @@ import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules
 from holdfast.recovery import Ending, search
+from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.proofs.flood import _Points, disconnected, holds_configuration, may_meet
-from holdfast.recovery.proofs.within_objects import WithinObjects
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.space import Space
 
@@ -198,7 +200,7 @@ def test_a_cell_with_a_configuration_of_the_goal_is_never_left_out(rng, rows):
 
 def test_a_box_that_is_blocked_holds_nothing_that_is_clear(rng):
     centres = np.array([[1.4, 0.5], [-0.7, -1.2]])
-    blocked = WithinObjects(among(three_links(2.8), centres, 0.5), 0.0)
+    blocked = BlockedBoxes(among(three_links(2.8), centres, 0.5), 0.0)
     middle, half = rng.uniform(-2.8, 2.8, (3000, 3)), rng.uniform(0, 0.2, (3000, 3))
     found = blocked(middle, half)
     assert 100 < found.sum() < 2000
@@ -206,9 +208,26 @@ def test_a_box_that_is_blocked_holds_nothing_that_is_clear(rng):
     corners = middle[found, None] + half[found, None] * np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
     q = np.concatenate([inside, corners], axis=1).reshape(-1, 3)
     assert (room(centres, q) + BALL - 0.5).max() < 0
-    assert blocked.objects == "ball0, ball1"
+    assert blocked.what == "ball0, ball1"
     touching = room(centres, middle) + BALL - 0.5 < -1e-3
     assert (blocked(middle, 0 * half) >= touching).mean() > 0.97, "balls do not fill a link; nearly all that touches is seen"
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_a_box_in_which_the_arm_blocks_itself_holds_nothing_that_is_clear(bodies, rng):
+    """Of capsules, and of bodies that capsules cover, beside fcl."""
+    arm = hf.arms.load("panda")
+    clearance = hf.Clearance.by_default(arm)
+    if not bodies:
+        clearance = hf.Clearance(arm, replace(clearance.capsules, shape=None))
+    blocked = BlockedBoxes(clearance, 0.0)
+    middle = rng.uniform(arm.lower, arm.upper, (3000, 7))
+    half = rng.uniform(0, 0.03, middle.shape)
+    found = blocked(middle, half)
+    assert 20 < found.sum() < 600
+    q = (middle[found, None] + half[found, None] * rng.choice([-1, 0, 1], (1, 4, 7))).reshape(-1, 7)
+    assert not clearance.sign(q).any()
+    assert " & " in blocked.what
 
 
 def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
@@ -227,7 +246,7 @@ def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
         q[:, 1] = (q[:, 1] + np.pi) % (2 * np.pi) - np.pi
         q = q[(np.abs(q) <= 2.8).all(axis=1)]
         most = (room(centres, q) + BALL - 0.6).max(initial=-np.inf)
-        blocked = WithinObjects(among(arm, centres, 0.6), 0.0)
+        blocked = BlockedBoxes(among(arm, centres, 0.6), 0.0)
         found = hf.all_configurations(arm, pose, "planar", blocked=blocked, most_boxes=60_000)
         assert not (found.none and most > 0)
         known += most < -0.02

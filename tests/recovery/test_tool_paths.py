@@ -88,6 +88,7 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     assert result.ok
     assert result.rest.graph > 0
     monkeypatch.setattr(continuation, "through_layers", lambda *_: Graph([], 0, 0))
+    monkeypatch.setattr(continuation, "_FINER", 1)
     alone = finished(three, low, high, here, path)
     assert not alone.ok
     assert flooded(path.pose(result.rest.share)[:, :2, 3], low, high)
@@ -134,3 +135,38 @@ def test_waypoints_are_added_where_straight_lines_of_joints_leave_the_path():
     tool = 0.3 * np.exp(1j * np.cumsum(fine, axis=1)).sum(axis=1)
     places = (share[:-1, None] + s * np.diff(share)[:, None]).ravel()
     assert np.abs(tool - (0.8999 - 0.1499 * places)).max() < 6e-4
+
+
+def test_joints_that_move_fast_beside_a_singularity_are_followed():
+    """Two axes of the shoulder nearly line up, so that a joint turns by 0.36 rad within 9 mm of the line, and does not jump."""
+    arm = hf.arms.load("panda")
+    here = np.array([-2.152, 0.157, 1.279, -1.452, -0.426, 2.96, 1.842])
+    begin = arm.forward_kinematics(here)
+    end = begin.copy()
+    end[:3, 3] += [0.0517, 0.2555, -0.1485]
+    path = hf.paths.line(begin, end)
+    result = hf.recover(arm, ["panda_joint7"], here, goal=None, path=path, samples=0, clearance=False)
+    assert result.ok
+    q = result.q[result.legs[-1].first :]
+    assert np.abs(q[:, 6] - here[6]).max() == 0
+    np.testing.assert_allclose(oracles.forward(arm, q), path.pose(result.rest.share), atol=1e-5)
+
+
+def test_no_motion_along_a_line_is_proved_and_what_may_be_missed_is_said():
+    """Links of 1 and 2 m; the elbow would have to bend by more than it may half-way, where the line is nearest."""
+    arm = hf.arms.load("planar-3r")
+    here = np.array([0.0, 0.0, 0.0])
+    point, bend = np.array([-0.3, 1.0002]), np.arccos((0.09 + 1.0002**2 - 5) / 4)
+    here[1] = bend
+    here[0] = np.arctan2(*point[::-1]) - np.arctan2(2 * np.sin(bend), 1 + 2 * np.cos(bend))
+    poses = np.tile(np.eye(4), (2, 1, 1))
+    poses[:, :2, 3] = point, point * [-1, 1]
+    for most, within in ((3.1, True), (3.1232, False)):
+        bad = hf.Degraded(arm, locked={"joint3": 0.0}, ranges={"joint2": (0.1, most)})
+        result = hf.recover(
+            arm, bad, here, goal=None, path=hf.paths.line(*poses), task="planar", samples=0, tolerance=(1e-4, 1e-4)
+        )
+        assert result.verdict.answer == "proved infeasible"
+        assert result.verdict.kind in ("a pose of the path", "disconnected")
+        assert result.proved_within == within
+        assert ("so is what misses it" if within else "not proved of what misses it") in result.verdict.why

@@ -61,9 +61,9 @@ def load(path: str | Path) -> Arm:
     """
     path = Path(path)
     try:
-        return _arm(_Table.model_validate(content(path, "holdfast.arms.dh_file", "rows")), path)
+        return built(ArmFile.model_validate(content(path, "holdfast.arms.dh_file", "rows")), path)
     except ValidationError as error:
-        raise ArmError(f"{path.name}: {sentence(error, _Table, TAGS)}") from error
+        raise ArmError(f"{path.name}: {sentence(error, ArmFile, TAGS)}") from error
     except (ArmError, InputError) as error:
         raise ArmError(f"{path.name}: {error}") from error
 
@@ -168,7 +168,9 @@ _Pose = Annotated[
 ]
 
 
-class _Table(Strict):
+class ArmFile(Strict):
+    """The keys of such a file."""
+
     rows: Annotated[list[_Row], Field(min_length=1)]
     name: str | None = None
     convention: Literal["standard", "modified"] = "standard"
@@ -180,11 +182,23 @@ class _Table(Strict):
     payload: _Body | None = None
     source: str = ""
 
+    @property
+    def tool_point(self) -> list[float]:
+        """The tool point in the last row's frame, m."""
+        if isinstance(self.tool, _Placement):
+            return self.tool.xyz
+        return [0.0, 0.0, 0.0] if self.tool is None else [row[3] for row in self.tool[:3]]
+
 
 # ---- the arm -----------------------------------------------------------------------------------------------------
 
 
-def _arm(table: _Table, path: Path) -> Arm:
+def built(table: ArmFile, path: Path) -> Arm:
+    """The arm of such keys, named after the file where they give no name.
+
+    Raises:
+        ArmError: A row, body or pose is wrong.
+    """
     unit = np.pi / 180 if table.angles == "deg" else 1.0
     links = table.links
     return Arm.from_dh(

@@ -59,7 +59,9 @@ class FailActiveJob(PlannedJob[Draw]):
             Column("joints", "uint8", (("kind", 3),), units="1", about="how many are locked, have a smaller range, are slower"),
             Column("verdict", "uint8", (), units="1", about=f"what the planner says: {verdicts}"),
             Column("trouble", "uint8", (), units="1", about=f"why the motion does not do the case: {TROUBLES}"),
+            Column("within", "uint8", (), units="1", about="1 where a proof holds for all that the judge accepts"),
             Column("seconds", "float64", (), units="s", about="measured, on one thread"),
+            Column("processor", "float64", (), units="s", about="of the processor, in that time"),
             Column("travel", "float64", (), units="rad", about="length of the motion in joint space, 1 m as 1 rad"),
         ]
 
@@ -70,8 +72,11 @@ class FailActiveJob(PlannedJob[Draw]):
         for row in range(chunk.start, chunk.stop):
             case = self.case(chunk.seed, row)
             limit = methods.Limit.of(self.plan["seconds"])
+            busy = time.thread_time()
             attempt = method(case, draw.clearance, limit, np.random.default_rng([chunk.seed, row]))
             found["seconds"].append(time.perf_counter() - limit.begin)
+            found["processor"].append(time.thread_time() - busy)
+            found["within"].append(attempt.within)
             solved, motion = attempt.verdict == "solved", attempt.motion
             found["trouble"].append(TROUBLES.index(trouble(case, motion if solved else None, draw.clearance)))
             found["verdict"].append(VERDICTS.index(attempt.verdict))

@@ -41,10 +41,12 @@ class Attempt:
     Attributes:
         verdict: What the planner says.
         motion: What it gives, if anything.
+        within: What it proves holds for all that the judge accepts, too.
     """
 
     verdict: Answer
     motion: Motion | None = None
+    within: bool = False
 
 
 @dataclass(frozen=True)
@@ -84,10 +86,11 @@ def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) ->
         samples=0,
         starts=STARTS,
         time_limit=limit.seconds,
+        tolerance=(NEAR, TURN),
         seed=int(rng.integers(2**31)),
     )
     if not answer.ok:
-        return Attempt(answer.verdict.answer)
+        return Attempt(answer.verdict.answer, within=answer.proved_within)
     along = next((leg for leg in answer.legs if leg.name == "along the path"), None)
     share = np.zeros(0) if along is None or answer.rest is None else answer.rest.share
     return Attempt(answer.verdict.answer, Motion(answer.q, first=0 if along is None else along.first, share=share))

@@ -47,11 +47,13 @@ class Score:
         solved: By a motion that the judge accepts.
         refused: Motions that the judge does not accept.
         proved, argued: Cases that the planner says are infeasible, with a proof or without.
+        within: Of the proofs, those that hold for all that the judge accepts, not for the exact poses alone.
         undecided: The others.
-        feasible: Cases that :func:`holdfast.recover` did not prove infeasible, of those that it was asked too.
-        contradictions: Cases solved that :func:`holdfast.recover` proved infeasible: the proof is about the exact pose, and
-            the judge accepts 1 mm and 0.5 deg, so only a pose that is missed by less may be among them.
+        feasible: Cases that :func:`holdfast.recover` did not prove infeasible within what the judge accepts, of those that it
+            was asked too.
+        contradictions: Cases solved that it did.
         seconds: (cases,) measured.
+        processor: (cases,) s of the processor in that time; less where others used it too.
     """
 
     task: str
@@ -61,11 +63,13 @@ class Score:
     solved: int
     refused: int
     proved: int
+    within: int
     argued: int
     undecided: int
     feasible: int
     contradictions: int
     seconds: NDArray[np.float64]
+    processor: NDArray[np.float64]
 
     @property
     def success(self) -> Interval:
@@ -131,7 +135,7 @@ def _rows(study: Study, cell: int) -> Rows:
 
 
 def _proofs(rows: Rows) -> set[int]:
-    return set(rows["case"][rows["verdict"] == VERDICTS.index("proved infeasible")].tolist())
+    return set(rows["case"][(rows["verdict"] == VERDICTS.index("proved infeasible")) & (rows["within"] == 1)].tolist())
 
 
 def _score(label: dict[str, Any], rows: Rows, proofs: set[int]) -> Score:
@@ -149,11 +153,13 @@ def _score(label: dict[str, Any], rows: Rows, proofs: set[int]) -> Score:
         solved=solved,
         refused=refused,
         proved=proved,
+        within=int(np.count_nonzero((verdict == 1) & (rows["within"] == 1))),
         argued=argued,
         undecided=cases - solved - refused - proved - argued,
         feasible=int(np.count_nonzero(~infeasible)),
         contradictions=int(np.count_nonzero(good & infeasible)),
         seconds=rows["seconds"],
+        processor=rows["processor"],
     )
 
 

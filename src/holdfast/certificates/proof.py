@@ -6,8 +6,10 @@ import json
 import re
 from dataclasses import dataclass
 from fractions import Fraction
+from io import BytesIO
 from pathlib import Path
 from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from holdfast.caching import cached_property
 from holdfast.certificates import documents, verifier
@@ -153,7 +155,8 @@ class TolerantProof(Result):
         """Write the certificate, and those of its parts beside it.
 
         Args:
-            file: The file; or a folder, which is made if need be and gets ``tolerant.certificate``.
+            file: The file; a folder, which is made if need be and gets ``tolerant.certificate``; or an archive of these
+                files (``.zip``), which the verifier takes as it is.
 
         Returns:
             The file, which is what :func:`check_certificate` takes.
@@ -162,12 +165,23 @@ class TolerantProof(Result):
             StoreError: A file cannot be written.
         """
         path = Path(file)
+        if path.suffix == ".zip":
+            return self._archived(path)
         if path.is_dir() or not path.suffix:
             path = made(path) / f"tolerant{SUFFIX}"
         stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem).lstrip("-") or "tolerant"
         for part, name in zip(self.parts, self._names(stem), strict=True):
             part.write(path.with_name(name))
         return written(self.document(stem), path)
+
+    def _archived(self, path: Path) -> Path:
+        """One file, the bundle first; the same parts make the same bytes."""
+        names, packed = ["tolerant" + SUFFIX, *self._names("tolerant")], BytesIO()
+        with ZipFile(packed, "w", ZIP_DEFLATED) as archive:
+            for name, document in zip(names, [self.document(), *(part.document for part in self.parts)], strict=True):
+                archive.writestr(ZipInfo(name), encoded(document), ZIP_DEFLATED, 9)
+        replaced(path, packed.getvalue(), "certificate")
+        return path
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -189,5 +203,10 @@ def early(finished: bool) -> str:
 
 def written(document: dict[str, Any], path: Path) -> Path:
     """The file of a certificate."""
-    replaced(path, (json.dumps(document, sort_keys=True, indent=1) + "\n").encode(), "certificate")
+    replaced(path, encoded(document), "certificate")
     return path
+
+
+def encoded(document: dict[str, Any]) -> bytes:
+    """What the file of a certificate holds."""
+    return (json.dumps(document, sort_keys=True, indent=1) + "\n").encode()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -12,6 +13,25 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
+
+
+@dataclass(frozen=True, kw_only=True)
+class SearchState:
+    """How far a search has come.
+
+    Attributes:
+        proved, undecided: Shares of all parts of the claim together. What is refuted is so by one witness, as a whole.
+        open: The share that is still to be looked at.
+        nodes: Boxes that were looked at.
+    """
+
+    proved: float
+    undecided: float
+    open: float
+    nodes: int
+
+
+Tell = Callable[[SearchState], None]
 
 
 @dataclass
@@ -78,15 +98,6 @@ class Tree:
         depth[rows, twice] += 1
         return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2))
 
-    @property
-    def undecided(self) -> Fraction:
-        """Exact share of the root."""
-        counts: dict[int, int] = {}
-        for found, depth in zip(self.token, self.depth, strict=True):
-            if found == UNDECIDED:
-                counts[depth] = counts.get(depth, 0) + 1
-        return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
-
     def in_order(self) -> tuple[bytes, list[Index]]:
         """Tokens in pre-order, lower half first, and the centres of the proved leaves in this order."""
         tokens, centres, waiting = bytearray(), [], [0]
@@ -98,3 +109,17 @@ class Tree:
             elif self.token[name] == PROVED:
                 centres.append(self.centre[name])
         return bytes(tokens), centres
+
+
+def undecided(tokens: bytes) -> Fraction:
+    """Exact share of a tree in pre-order that is undecided."""
+    counts, depth, waiting = dict[int, int](), 0, list[int]()
+    for token in tokens:
+        if token >= SPLIT:
+            depth += 1
+            waiting.append(depth)
+            continue
+        if token == UNDECIDED:
+            counts[depth] = counts.get(depth, 0) + 1
+        depth = waiting.pop() if waiting else 0
+    return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))

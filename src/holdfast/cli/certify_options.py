@@ -56,3 +56,12 @@ TimeOption = Annotated[
     float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
 ]
 CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
+WorkersOption = Annotated[int, typer.Option("--workers", help="Processes; the certificate is the same.")]
+StoreOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--store",
+        help="Folder that remembers what is done, so that the same command resumes a search that was stopped or killed.",
+        show_default=False,
+    ),
+]

@@ -99,6 +99,15 @@ PathTaskOption = Annotated[
         show_default=False,
     ),
 ]
+KeepOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--keep",
+        help="upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
+        "May be given again.",
+        show_default=False,
+    ),
+]
 DurationOption = Annotated[
     float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
 ]

@@ -15,6 +15,7 @@ class progress_bar:
         self._label = label
         self._quiet = quiet or not sys.stderr.isatty()
         self._bar: Any = None
+        self.says: Callable[[str], None] = lambda text: None  # in place of the label
 
     def __enter__(self) -> Any:
         if self._quiet:
@@ -27,6 +28,7 @@ class progress_bar:
         )
         self._bar.start()
         job = self._bar.add_task(self._label, total=None)
+        self.says = lambda text: self._bar.update(job, description=text)
         return lambda done, total: self._bar.update(job, completed=done, total=total)
 
     def __exit__(self, *_: object) -> None:

@@ -26,6 +26,7 @@ from holdfast.caching import cached_property
 from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
 from holdfast.errors import InputError, TaskError
+from holdfast.frameworks.rows import Differentiable, RowFunction
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
@@ -36,7 +37,7 @@ from holdfast.result import Shown
 Array = NDArray[np.float64]
 
 
-class Law(Shown, Labelled, Steps):
+class Law(Shown, Labelled, Differentiable, Steps):
     """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
 
     In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);
@@ -133,6 +134,24 @@ class Law(Shown, Labelled, Steps):
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
         return Kernel(
             f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)]
+        )
+
+    @cached_property
+    @recalled
+    def _slopes_kernel(self) -> Kernel:
+        q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
+        slopes = self.with_slopes(q, v, ca.vertcat(q, v))[1]
+        return Kernel(f"{self.name}, slopes", [q, v], [slopes[:, : self.arm.n], slopes[:, self.arm.n :]])
+
+    def row_function(self) -> RowFunction:
+        """See :meth:`holdfast.frameworks.Differentiable.row_function`; its slopes are those of the rates by q and by v."""
+        return RowFunction(
+            name=self.name,
+            sizes=(self.arm.n, self.task.m),
+            size=self.arm.n,
+            value=self.velocity,
+            slopes=self._slopes_kernel,
+            kernels=(self._velocity_kernel, self._slopes_kernel),
         )
 
     def _step_kernel(self) -> tuple[Kernel, int]:

@@ -1,3 +1,8 @@
+from holdfast.designs.book.entries import Book as Book
+from holdfast.designs.book.entries import Record as Record
+from holdfast.designs.book.entries import RecordCheck as RecordCheck
+from holdfast.designs.book.entries import record as record
+from holdfast.designs.book.entries import records as records
 from holdfast.designs.convergence import ConvergenceDesigns as ConvergenceDesigns
 from holdfast.designs.convergence import design_for_convergence as design_for_convergence
 from holdfast.designs.convergence import planar_measures as planar_measures
@@ -18,3 +23,8 @@ from holdfast.designs.space import DesignSpace as DesignSpace
 from holdfast.designs.space import Parameter as Parameter
 from holdfast.designs.space import design_space as design_space
 from holdfast.designs.space import parse_vary as parse_vary
+from holdfast.designs.synthesis.arms import Synthesis as Synthesis
+from holdfast.designs.synthesis.arms import synthesise as synthesise
+from holdfast.designs.synthesis.arms import written as written
+from holdfast.designs.synthesis.orders import Orders as Orders
+from holdfast.designs.synthesis.orders import judge_orders as judge_orders

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -14,25 +14,18 @@ from holdfast.arguments import checked
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
-from holdfast.enclosure.box_bounds import Parts, box_kernel, idle, turning
-from holdfast.errors import InputError, TaskError
-from holdfast.kernels.kernel import Kernel
+from holdfast.enclosure.box_bounds import ROUNDING
+from holdfast.enclosure.boxes import Blocked, Boxes, Cut
+from holdfast.errors import InputError
 from holdfast.notice import says, working
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-Blocked = Callable[[Array, Array], Flags]
-"""Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
-
-ROUNDING = 1e-9  # m and rad by which every bound is widened; the kernel's own errors are 1e-13
 SMALLEST = 1e-6  # rad and m: a box no wider than this is not halved any more
-_BATCH = 4096  # boxes looked at together
-_GAIN = 0.6  # of its volume: a box that was cut to less is looked at again before it is halved
-_TURN = 0.35  # m: what 1 rad of a joint counts beside the way of the tool when the joint to halve is chosen
 _NEWTON = 30
 _ALONE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
-_TILT = 1e-6  # what it does to the bounds is its square
+_LOOSE = 1e-4  # m and rad: what is met within more fills boxes that are as small as boxes get
 _SAME = 1e-5  # rad and m: solutions nearer than this are one
 
 
@@ -112,7 +105,7 @@ def all_configurations(
     task: str | Task | Sequence[str] = "pose",
     *,
     limits: tuple[ArrayLike, ArrayLike] | None = None,
-    tolerance: float = 0.0,
+    tolerance: float | tuple[float, float] = 0.0,
     time_limit: float = 10.0,
     most_boxes: int = 20_000_000,
     first: bool = False,
@@ -131,7 +124,7 @@ def all_configurations(
         task: ``pose``, ``pointing``, ``position``, ``planar``, ``planar-pose``, or position rows in the world frame.
         limits: (n,) lower and (n,) upper limits, rad and m; equal where a joint is locked, as ``lo`` and ``hi`` of
             :class:`holdfast.Degraded`. Default: the arm's; joints without limits turn once.
-        tolerance: m and rad by which each row may be missed: the proof is about all these.
+        tolerance: By which each row may be missed, m and rad, or one number for both: the proof is about all these.
         time_limit: s after which the answer is ``OPEN``.
         most_boxes: After which it is.
         first: One configuration ends the search.
@@ -147,12 +140,14 @@ def all_configurations(
     rows = as_task(arm, task)
     wanted = target_pose(rows, pose)
     low, high = _limits(arm, limits)
-    if not (tolerance >= 0 and np.isfinite(tolerance)) or not time_limit > 0 or most_boxes < 1:
+    allowed = np.broadcast_to(tolerance, 2)
+    if not ((allowed >= 0).all() and np.isfinite(allowed).all()) or not time_limit > 0 or most_boxes < 1:
         raise InputError(
-            f"tolerance is {tolerance:g}, time_limit {time_limit:g} and most_boxes {most_boxes}; give a finite tolerance of 0 "
-            "or more, a time above 0 and 1 box or more"
+            f"tolerance is {tolerance}, time_limit {time_limit:g} and most_boxes {most_boxes}; give a finite tolerance of 0 or "
+            "more, a time above 0 and 1 box or more"
         )
-    search = _Search(arm, rows, wanted, tolerance, low, high, blocked)
+    boxes = Boxes(arm, rows, wanted, tolerance=(float(allowed[0]), float(allowed[1])), limits=(low, high), blocked=blocked)
+    search = _Search(boxes)
     begin = time.perf_counter()
     finding = search.run(begin + time_limit, most_boxes, first)
     return Configurations(
@@ -163,11 +158,11 @@ def all_configurations(
         upper=high,
         finding=finding,
         q=search.found,
-        boxes=search.boxes,
+        boxes=boxes.looked_at,
         open=search.open,
         widest=search.widest,
         seconds=time.perf_counter() - begin,
-        blocked=search.left_out,
+        blocked=boxes.left_out,
     )
 
 
@@ -190,31 +185,15 @@ def _limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Array
 class _Search:
     """One search: a stack of boxes, the last of which are looked at first."""
 
-    def __init__(
-        self, arm: Arm, task: Task, pose: Array, tolerance: float, low: Array, high: Array, blocked: Blocked | None
-    ) -> None:
-        parts = Parts.of(arm, task)
-        if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
-            turned = pose[:3, :3] @ arm.forward_kinematics((low + high) / 2)[:3, :3].T @ parts.normal
-            if np.abs(turned - parts.normal).max() > _TILT:
-                raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
-        self._kernel: Kernel = box_kernel(arm, parts)
-        self._given = pose[:3, 3], pose[:3, :3], np.full(parts.m, tolerance)
-        self._turning = np.where(turning(arm, parts), _TURN, 0.0)
-        self._unseen = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
-        if idle(arm, parts):
-            self._unseen[-1] = (high[-1] - low[-1]) / 2
-            low, high = low.copy(), high.copy()
-            low[-1] = high[-1] = (low[-1] + high[-1]) / 2
-        self._free = high > low
-        self._square = int(self._free.sum()) == parts.m
-        self._more = int(self._free.sum()) > parts.m
-        self._low, self._high, self._n = low, high, arm.n
-        self._stack = [np.stack([(low + high) / 2, (high - low) / 2])[None]]
+    def __init__(self, boxes: Boxes) -> None:
+        self._boxes, self._n = boxes, len(boxes.low)
+        self._low, self._high, self._free = boxes.low, boxes.high, boxes.high > boxes.low
+        self._square = int(self._free.sum()) == boxes.parts.m
+        self._more = int(self._free.sum()) > boxes.parts.m
+        self._loose = bool(boxes.given[2].max() > _LOOSE)
+        self._stack = [np.stack([(self._low + self._high) / 2, (self._high - self._low) / 2])[None]]
         self._small: list[Array] = []  # boxes that are not halved any more, (K, 2, n)
-        self.found = np.zeros((0, arm.n))
-        self.boxes = self.left_out = 0
-        self._blocked = blocked
+        self.found = np.zeros((0, self._n))
 
     @property
     def _left(self) -> Array:
@@ -232,64 +211,34 @@ class _Search:
 
     def run(self, until: float, most: int, first: bool) -> Finding:
         """Look until all is decided, or no more may be done."""
-        ends = first or self._more
+        ends, boxes = first or self._more, self._boxes
         with working("halving boxes of joints") as advance:
             while self._stack:
-                if time.perf_counter() > until or self.boxes >= most:
+                if time.perf_counter() > until or boxes.looked_at >= most:
                     return Finding.OPEN
-                self._look(self._take())
-                advance(self.boxes, most)
+                self._look(boxes.cut(boxes.taken(self._stack)))
+                advance(boxes.looked_at, most)
                 if ends and len(self.found):
                     return Finding.SOME
+                if self._small and self._loose:
+                    return Finding.OPEN  # as it would be in the end, after all boxes of that size
         if self._small:
             return Finding.OPEN
         return Finding.ALL if len(self.found) else Finding.NONE
 
-    def _take(self) -> Array:
-        boxes = self._stack.pop()
-        while len(boxes) < _BATCH and self._stack:
-            boxes = np.concatenate([self._stack.pop(), boxes])
-        if len(boxes) > _BATCH:
-            self._stack.append(boxes[:-_BATCH])
-        return boxes[-_BATCH:]
-
-    def _look(self, boxes: Array) -> None:
-        """Cut boxes (N, 2, n) to what they can hold; what is left is looked at again, halved, or set aside."""
-        self.boxes += len(boxes)
-        n = self._n
-        out = self._kernel.rows(boxes[:, 0], boxes[:, 1], *self._given)
-        left = np.flatnonzero(out[:, 0] <= ROUNDING)
-        out, boxes = out[left], boxes[left]
-        middle, radius, rho = out[:, 1 : n + 1], out[:, n + 1 : 2 * n + 1] + ROUNDING, out[:, 2 * n + 1 : 3 * n + 1]
-        centre, half = boxes[:, 0], boxes[:, 1]
-        low, high = np.maximum(middle - radius, -half), np.minimum(middle + radius, half)
-        open_ = (low <= high).all(axis=1)
+    def _look(self, cut: Cut) -> None:
+        """What boxes can hold is looked at again, halved, or set aside."""
         if self._square:
-            held = open_ & (half.max(axis=1) < _ALONE)
-            held[held] = ((np.abs(middle[held]) + radius[held] < half[held]) | ~self._free).all(axis=1)
+            held = cut.inside & (cut.before[:, 1].max(axis=1, initial=0.0) < _ALONE)
             if held.any():
-                self._polish(centre[held] + middle[held], boxes[held])
-                open_ &= ~held
-        low, high, rho, before = low[open_], high[open_], rho[open_], half[open_]
-        centre, half = centre[open_] + (low + high) / 2, np.where(self._free, (high - low) / 2, 0.0)
-        if self._blocked is not None and len(centre):
-            clear = ~self._blocked(centre, half + self._unseen)
-            self.left_out += len(clear) - int(clear.sum())
-            centre, half, rho, before = centre[clear], half[clear], rho[clear], before[clear]
-        tiny = half.max(axis=1, initial=0.0) < SMALLEST
+                self._polish(cut.box[held, 0], cut.before[held])
+                cut = cut[~held]
+        cut = self._boxes.clear(cut)
+        tiny = cut.box[:, 1].max(axis=1, initial=0.0) < SMALLEST
         if tiny.any():
-            self._polish(centre[tiny], np.stack([centre[tiny], half[tiny]], axis=1))
-        volume = (half[:, self._free] / before[:, self._free]).prod(axis=1)
-        again = ~tiny & (volume < _GAIN)
-        halved = ~tiny & ~again
-        c, h = centre[halved], half[halved]
-        k = ((rho[halved] + self._turning) * h).argmax(axis=1)
-        row = np.arange(len(c))
-        h[row, k] /= 2
-        sides = np.repeat(np.stack([c, h], axis=1)[None], 2, axis=0)
-        sides[0, row, 0, k] -= h[row, k]
-        sides[1, row, 0, k] += h[row, k]
-        more = np.concatenate([np.stack([centre[again], half[again]], axis=1), *sides])
+            self._polish(cut.box[tiny, 0], cut.box[tiny])
+            cut = cut[~tiny]
+        more = cut.halved()
         if len(more):
             self._stack.append(more)
 
@@ -297,14 +246,15 @@ class _Search:
         """Newton's method from q (N, n) in boxes (N, 2, n): where it finds nothing there, the box stays open."""
         near = np.where(self._free, 1e-4, 0.0)
         for _ in range(_NEWTON):
-            out = self._kernel.rows(q, np.broadcast_to(near, q.shape), *self._given)
-            step = out[:, 1 : self._n + 1]
+            out = self._boxes.kernel.rows(q, np.broadcast_to(near, q.shape), *self._boxes.given)
+            step = out[:, 2 * self._n + 4 : 3 * self._n + 4]
             q = np.clip(q + step, self._low, self._high)
             if np.abs(step).max() < 1e-13:
                 break
-        missed = np.abs(self._kernel.rows(q, np.zeros_like(q), *self._given)[:, 3 * self._n + 1 :]).max(axis=1)
+        errors = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.given)[:, 3 * self._n + 4 :]
+        met = (np.abs(errors) <= self._boxes.given[2] + ROUNDING).all(axis=1)
         there = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + SMALLEST).all(axis=1)
-        good = there & (missed <= self._given[2].max() + ROUNDING)
+        good = there & met
         for x in q[good]:
             if not len(self.found) or np.abs(self.found - x).max(axis=1).min() > _SAME:
                 self.found = np.concatenate([self.found, x[None]])

@@ -20,6 +20,7 @@ from holdfast.endurance.rates import FailureRates
 from holdfast.endurance.timed_motion import as_trajectory
 from holdfast.errors import InputError
 from holdfast.files.output import write_table
+from holdfast.keep.kept import Kept
 from holdfast.motion.trajectory import Trajectory
 from holdfast.notice import says
 from holdfast.paths.timed_path import TimedPath
@@ -98,7 +99,8 @@ class Compared:
         name: What made it.
         survival: As of :class:`Endurance`.
         curve: (T,) as there, at the same times.
-        off: Fraction of the samples at which it is off the path, or has no configuration; nothing is survived there.
+        off: Fraction of the samples at which it is off the path, breaks what is kept, or has no configuration; nothing is
+            survived there.
     """
 
     name: str
@@ -125,9 +127,11 @@ class Endurance(Result):
         q: (T, n) the motion, rad and m.
         survives: (T, n) True where a lock of the joint at that time is survived.
         kept: What the motion and the failed arm keep clear of, and by how much, m; or None.
+        keep: What the tool keeps beside the path, before the lock and after it, through the first pose.
         found: What the search for the best motion knows; None for a motion that was given.
-        kind: Of every probability: ``exact``, up to the grid; ``upper bound``, of detours among obstacles, which are not looked
-            for; ``lower bound``, with more than one degree of redundancy, where not every way on after a lock is looked at.
+        kind: Of every probability: ``exact``, up to the grid; ``upper bound``, of detours among obstacles or with something
+            kept, which are not looked for; ``lower bound``, with more than one degree of redundancy, where not every way on
+            after a lock is looked at.
         beside: Other motions along the path.
         injected: Locks that were tried on it, if somebody did; see :meth:`inject`.
     """
@@ -142,6 +146,7 @@ class Endurance(Result):
     q: Array
     survives: Flags
     kept: tuple[Clearance, float] | None = None
+    keep: tuple[Kept, ...] = ()
     found: Found | None = None
     kind: Kind = "exact"
     beside: tuple[Compared, ...] = ()
@@ -161,7 +166,8 @@ class Endurance(Result):
             poses=problem.lock.poses,
             q=q,
             survives=survives,
-            kept=problem.kept,
+            kept=problem.conditions.room,
+            keep=problem.conditions.keep,
             found=found,
             kind=problem.kind,
             _problem=problem,
@@ -189,7 +195,7 @@ class Endurance(Result):
 
     def curve(self) -> Array:
         """(T,) probability that a lock at that time is survived, whichever joint it is."""
-        return np.asarray(self.survives @ self.rates.each / self.rates.total)
+        return np.asarray(np.round(self.survives @ self.rates.each / self.rates.total, 12))
 
     @cached_property
     def by_joint(self) -> dict[str, float]:
@@ -211,9 +217,8 @@ class Endurance(Result):
     def safe_until(self) -> float | None:
         """Every lock up to this sample is survived, s; None if one at the very start is not."""
         lost = np.flatnonzero(self.curve() < 1 - _WHOLE)
-        if not lost.size:
-            return float(self.time[-1])
-        return float(self.time[lost[0] - 1]) if lost[0] else None
+        last = lost[0] - 1 if lost.size else len(self.time) - 1
+        return float(self.time[last]) if last >= 0 else None
 
     @property
     def worst(self) -> tuple[float, float]:
@@ -294,7 +299,7 @@ class Endurance(Result):
             raise InputError(f"locks is {locks}; it must be 1 or more")
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         time, joint = drawn_locks(self._problem, locks, generator)
-        survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint)
+        survived = finished(self._problem, healthy(self._problem, self.q, time), time, joint, begin=self.q[0])
         before = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2)
         survived |= self._problem.stays(self.q)[before, joint]
         expected = self.survives[before, joint]
@@ -319,13 +324,13 @@ class Endurance(Result):
 
     def _mean(self, values: Array) -> float:
         weights = self.rates.weights(self.time)
-        return float(weights @ values / weights.sum())
+        return round(float(weights @ values / weights.sum()), 12)  # all of them are 1, not almost
 
     def _set_by_the_pose(self) -> list[str]:
         """Why some locks are hardly survived by any motion, of full poses above all that of an elbow."""
         if self.found is None or self.kind == "lower bound":
             return []
-        joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0))
+        joints = np.flatnonzero((self.found.moved <= _LITTLE) & (self.rates.each > 0) & ~self.survives.all(axis=0))
         lines = []
         for joint, most in zip([self.arm.joints[k] for k in joints], self.found.moved[joints], strict=True):
             far = f" by more than {most:.3g} {joint.unit}" if most > _STILL else ""
@@ -349,7 +354,8 @@ class Endurance(Result):
         if self.kind == "lower bound":
             lines.append(
                 "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
-                f"that hold {self.arm.n - self.task.m - 1} more of its joints"
+                f"that hold {self._problem.spare - 1} more of its joints"
+                + (", or the axis that is kept in a cone and fewer joints" if self._problem.conditions.left else "")
             )
         elif self.found is not None:
             low, high = self.found.interval
@@ -358,6 +364,9 @@ class Endurance(Result):
                 f"{self.found.spacing:g} rad; over its nodes the best within the velocity limits survives "
                 f"{'none found' if np.isnan(low) else percent(low)}, and {percent(high)} if the spacing comes on top of them"
             )
+        if self.keep:
+            alone = "" if self._problem.conditions.left else ", by the rows of the path alone"
+            lines.append(f"kept at every sample, before a lock and after it{alone}: {'; '.join(map(str, self.keep))}")
         if not self.guaranteed:
             when, least = self.worst
             lines.append(
@@ -374,16 +383,15 @@ class Endurance(Result):
             )
         if self.never is not None:
             when, name = self.never
-            lines.append(
-                f"no motion survives all: at {when:.4g} s no configuration survives every lock, least of all that of {name}"
-            )
+            lines.append(f"no motion survives all: at {when:.4g} s no configuration survives every lock, least of all {name}'s")
         lines += self._set_by_the_pose()
         if self.speed > 1 + _WHOLE:
             lines.append(f"the motion takes {self.speed:.3g} times the velocity limit of a joint: slow the path down")
         if self.lost is not None:
             lines.append(f"probability that a lock loses the path: {self.lost:.3g}")
         if self.kind == "upper bound":
-            lines.append("detours among obstacles were not looked for: every probability is an upper bound")
+            where = "that keep what is kept" if self.keep else "among obstacles"
+            lines.append(f"detours {where} were not looked for: every probability is an upper bound")
         jump = self.jump
         lines.append(
             f"when a joint stops at once the tool loses at most {jump.most_linear:.3g} m/s and {jump.most_angular:.3g} rad/s, "

@@ -67,8 +67,11 @@ def drawn_locks(problem: Problem, locks: int, generator: np.random.Generator) ->
     return share * duration, joint
 
 
-def finished(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
-    """(N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path."""
+def finished(problem: Problem, q: Array, time: Array, joint: Index, *, begin: Array) -> Flags:
+    """(N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path.
+
+    Its motion began at ``begin`` (n,).
+    """
     if problem.mode == "detour":
         return _with_detours(problem, q, time, joint)
     if problem.spare == 1:
@@ -77,6 +80,10 @@ def finished(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
     for held in problem.sets:  # the failed arm may hold any of them
         some = np.flatnonzero(~survived & ~np.isin(joint, held))
         survived[some] = _on_path(problem, q[some], time[some], joint[some], (*problem.immobile, *held))
+    narrower = problem.narrower_at(begin)
+    if narrower is not None:
+        some = np.flatnonzero(~survived & ~narrower.off(q, time))
+        survived[some] = finished(narrower, q[some], time[some], joint[some], begin=begin)
     return survived
 
 
@@ -107,8 +114,7 @@ def _on_path(problem: Problem, q: Array, time: Array, joint: Index, held: tuple[
             back = np.where(over, (state[:, -1] - _WHOLE) / np.where(over, fourth[:, -1], 1.0), 0.0)
             here = state[:, :-1] - back[:, None] * fourth[:, :-1]
             good = ((here >= arm.lower - 1e-9) & (here <= arm.upper + 1e-9)).all(axis=1) & (fourth[:, -1] > 0)
-            if problem.kept is not None:
-                good &= problem.kept[0].room(here) >= problem.kept[1] - 1e-9
+            good[good] = problem.conditions.holds(here[good], 1e-9)
             ended = np.flatnonzero(over & good)
             survived[left[ended]] = _on_last_pose(problem, here[ended])
             go_on = good & ~over
@@ -155,7 +161,6 @@ def _with_detours(problem: Problem, q: Array, time: Array, joint: Index) -> Flag
     count = len(problem.time) - first
     owner = np.repeat(np.arange(len(q)), count)
     pose = np.concatenate([np.arange(k, len(problem.time)) for k in first])
-    clear = problem.kept
     reached = solver(problem.arm, problem.task).reaches_locked(
         problem.lock.poses[pose],
         joint[owner],
@@ -163,7 +168,7 @@ def _with_detours(problem: Problem, q: Array, time: Array, joint: Index) -> Flag
         np.random.SeedSequence(0),
         _RESTARTS,
         1e-6,
-        None if clear is None else lambda x: clear[0].room(x) >= clear[1],
+        problem.conditions.holds if problem.conditions.any else None,
     )
     survived = np.ones(len(q), dtype=bool)
     survived[owner[~reached]] = False

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.clearance.clearance import Clearance
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.curve_tracing import Tracer
 
@@ -38,26 +38,26 @@ class Lock:
         tracer: Of the arm and task.
         poses: (T, 4, 4) of the path.
         between: (T - 1, K, 4, 4) evenly between each and the next, and the next.
-        kept: What is kept clear of, and by how much, m.
+        holds: Whether configurations (N, n) meet what is asked of them beside the path.
     """
 
     arm: Arm
     tracer: Tracer
     poses: Array
     between: Array
-    kept: tuple[Clearance, float] | None = None
+    holds: Callable[[Array], Flags]
 
     @classmethod
-    def along(cls, arm: Arm, tracer: Tracer, path: TimedPath, time: Array, kept: tuple[Clearance, float] | None = None) -> Lock:
+    def along(cls, arm: Arm, tracer: Tracer, path: TimedPath, time: Array, holds: Callable[[Array], Flags]) -> Lock:
         """On a path, at times (T,), s."""
         parts = np.arange(1, _SMALLER + 1) / _SMALLER
         finer = time[:-1, None] + parts * np.diff(time)[:, None]
-        return cls(arm, tracer, path.pose(time), path.pose(finer.ravel()).reshape(*finer.shape, 4, 4), kept)
+        return cls(arm, tracer, path.pose(time), path.pose(finer.ravel()).reshape(*finer.shape, 4, 4), holds)
 
     def step(self, q: Array, joint: Index, t: int | Index) -> tuple[Array, Flags]:
         """From q (N, n) on pose t, one or (N,), with joint (N,) locked to the pose after it: where, and whether it got there.
 
-        Not if the branch ends on the way or leaves the limits, or what is to be kept clear of is too near.
+        Not if the branch ends on the way, or leaves the limits or what else it must meet.
         """
         target = np.broadcast_to(self.poses[np.asarray(t) + 1], (len(q), 4, 4))
         return self._step(q, joint, np.broadcast_to(t, len(q)), target, self.tracer.newton(q, *_split(target)))
@@ -89,10 +89,7 @@ class Lock:
             again, here = again[on], here[on]
         moved[again], good[again] = here, True
         good &= ((moved >= self.arm.lower) & (moved <= self.arm.upper)).all(axis=1)
-        if self.kept is not None:
-            clearance, margin = self.kept
-            some = np.flatnonzero(good)
-            good[some] = clearance.room(moved[some]) >= margin
+        good[good] = self.holds(moved[good])
         return moved, good
 
     def _solved(self, q: Array, joint: Index, target: Array, begun: tuple[Array, Array, Array]) -> tuple[Array, Flags]:

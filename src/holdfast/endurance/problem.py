@@ -16,9 +16,12 @@ from holdfast.caching import cached_property
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
+from holdfast.endurance.conditions import Conditions, with_axis
 from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
+from holdfast.keep.kept import Kept
+from holdfast.keep.labels import KeepLike, as_kept
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
@@ -43,9 +46,9 @@ class Problem:
 
     Attributes:
         spare: Degrees of redundancy, less the joints that cannot move.
-        kind: What a verdict on a lock is: exact, up to the grid; an upper bound, of detours among obstacles, which are not
-            looked for; or a lower bound, where more than one degree of redundancy leaves a failed arm more ways than are
-            looked at.
+        kind: What a verdict on a lock is: exact, up to the grid; an upper bound, of detours among obstacles or with something
+            kept, which are not looked for; or a lower bound, where more than one degree of redundancy leaves a failed arm more
+            ways than are looked at.
     """
 
     arm: Arm
@@ -55,7 +58,7 @@ class Problem:
     rates: FailureRates
     time: Array
     lock: Lock
-    kept: tuple[Clearance, float] | None
+    conditions: Conditions
     spacing: float
     seed: int
     starts: int
@@ -65,7 +68,7 @@ class Problem:
         """What a verdict is."""
         if self.spare > 1:
             return "lower bound"
-        return "upper bound" if self.mode == "detour" and self.kept is not None else "exact"
+        return "upper bound" if self.mode == "detour" and self.conditions.any else "exact"
 
     @property
     def spare(self) -> int:
@@ -90,17 +93,39 @@ class Problem:
         order = np.random.default_rng(np.random.SeedSequence(self.seed)).permutation(len(every))
         return [every[k] for k in order[:_SETS]]
 
+    def narrower(self, axis: Array) -> Problem | None:
+        """The same with the axis of the tool that a cone leaves free held along ``axis`` (3,), a unit vector in the world.
+
+        Two rows more, so that less is looked at and what is found does more; every motion and every way on is one of this
+        problem too. None where there is no such cone, the path prescribes turns, or no redundancy is left.
+        """
+        cone = next(iter(self.conditions.left), None)
+        held = None if cone is None or self.spare < 3 else with_axis(self.task, self.path, cone.axis, axis)
+        if held is None:
+            return None
+        task, path = held
+        conditions = Conditions.of(self.arm, task, self.conditions.room, self.conditions.keep)
+        lock = Lock.along(self.arm, tracer(self.arm, task, self.immobile), path, self.time, conditions.holds)
+        return replace(self, path=path, task=task, conditions=conditions, lock=lock)
+
+    def narrower_at(self, q: Array) -> Problem | None:
+        """As :meth:`narrower`, with the axis held along where it is at q (n,)."""
+        if not self.conditions.left:
+            return None
+        axis = self.arm.forward_kinematics(q)[:3, :3] @ self.conditions.left[0].axis
+        return self.narrower(axis)
+
     def coarser(self) -> Problem:
         """The same on fewer poses and nodes, for trying."""
         time = np.linspace(0.0, self.path.duration, max(len(self.time) // 4, _FEWEST))
-        lock = Lock.along(self.arm, self.lock.tracer, self.path, time, self.kept)
+        lock = Lock.along(self.arm, self.lock.tracer, self.path, time, self.conditions.holds)
         return replace(self, time=time, lock=lock, spacing=max(self.spacing, _COARSE))
 
     def first(self) -> Array:
         """(K, n) a few configurations of the first pose, far apart."""
         q = self.lock.tracer.seeds(self.lock.poses[:1], np.zeros(1, dtype=np.intp), self.seed, _STARTS)[1]
-        if self.kept is not None:
-            q = q[self.kept[0].room(q) >= self.kept[1]]
+        q = self.conditions.brought(q, self.lock.poses[0])
+        q = q[~self._off(q, self.lock.poses[:1]) & self.conditions.holds(q)]
         chosen = [0] * bool(len(q))
         while 0 < len(chosen) < min(_FIRST, len(q)):
             away = np.min([np.linalg.norm(joint_space.difference(self.arm, q, q[k]), axis=1) for k in chosen], axis=0)
@@ -116,8 +141,9 @@ class Problem:
     def followed(self, q: Array) -> Flags:
         """(T, n) as :meth:`judge`, without leaving the path.
 
-        With more than one degree of redundancy the failed arm goes on with further joints held, so that it has one way; a lock
-        is survived if one such way leads to the end, or if the motion itself does not move the joint any more.
+        With more than one degree of redundancy the failed arm goes on with further joints held, or with the tool's axis held
+        that a cone leaves free, so that it has one way; a lock is survived if one such way leads to the end, or if the motion
+        itself does not move the joint any more.
         """
         if self.spare == 1:
             return tables.along(self.lock, q)
@@ -127,6 +153,9 @@ class Problem:
             asked[:, list(held)] = False
             if asked.any():
                 survives |= tables.along(self.holding(dict.fromkeys(held, 0.0)).lock, q, asked)
+        narrower = self.narrower_at(q[0]) if np.isfinite(q[0]).all() else None
+        if narrower is not None:
+            survives |= narrower.followed(np.where(narrower.off(q)[:, None], np.nan, q))
         return survives
 
     def stays(self, q: Array) -> Flags:
@@ -139,17 +168,21 @@ class Problem:
     @cached_property
     def fibres(self) -> list[SelfMotion]:
         """The self-motion curves of every pose."""
-        kept, margin = self.kept or (None, 0.0)
+        kept, margin = self.conditions.room or (None, 0.0)
         options = {"spacing": self.spacing, "seed": self.seed, "starts": self.starts, "clearance": kept, "margin": margin}
-        return traced(self.lock.tracer, self.task, self.lock.poses, follow=True, **options)  # type: ignore[arg-type]
+        found = traced(self.lock.tracer, self.task, self.lock.poses, follow=True, **options)  # type: ignore[arg-type]
+        return [self.conditions.cut(self.lock.tracer, each_pose) for each_pose in found]
 
     @cached_property
     def _ranges(self) -> list[list[tables.Spans]]:
         return tables.common_ranges(self.fibres)
 
-    def off(self, q: Array) -> Flags:
-        """(T,) where a motion (T, n) is off the path by more than 1 mm or 1 mrad, or not there at all."""
-        position, rotation = solver(self.arm, self.task).errors(q, self.lock.poses)
+    def off(self, q: Array, time: Array | None = None) -> Flags:
+        """(T,) where a motion (T, n) is off the path by more than 1 mm or 1 mrad, or not there at all; or q (N, n) at times."""
+        return self._off(q, self.lock.poses if time is None else self.path.pose(time))
+
+    def _off(self, q: Array, poses: Array) -> Flags:
+        position, rotation = solver(self.arm, self.task).errors(q, np.broadcast_to(poses, (len(q), 4, 4)))
         return ~(np.maximum(position, rotation) <= ON)
 
 
@@ -165,6 +198,7 @@ def posed(
     cell: CellLike | None,
     margin: float,
     *,
+    keep: KeepLike | None,
     spacing: float,
     seed: int,
     starts: int,
@@ -172,7 +206,7 @@ def posed(
     """The problem, if it can be posed.
 
     Raises:
-        InputError: Options that do not fit.
+        InputError: Options that do not fit, or a row that is kept exactly and that the path leaves free.
         TaskError: No redundancy, or detours with more than one degree of it.
     """
     if mode not in ("on-path", "detour"):
@@ -187,6 +221,11 @@ def posed(
         raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")
     kept = None if clear is None else (clear, margin)
     time = np.linspace(0.0, path.duration, samples)
+    every = _anchored(keep, path)
+    for one in every:
+        if one.direction is not None and not one.angle:  # kept exactly: rows of the task, where they can be
+            rows, path = with_axis(rows, path, one.axis, one.direction) or (rows, path)
+    conditions = Conditions.of(arm, rows, kept, every)
     problem = Problem(
         arm=arm,
         path=path,
@@ -194,8 +233,8 @@ def posed(
         mode=mode,
         rates=FailureRates.of(arm, rates, per_second=per_second),
         time=time,
-        lock=Lock.along(arm, tracer(arm, rows), path, time, kept),
-        kept=kept,
+        lock=Lock.along(arm, tracer(arm, rows), path, time, conditions.holds),
+        conditions=conditions,
         spacing=spacing,
         seed=seed,
         starts=starts,
@@ -214,3 +253,12 @@ def posed(
             "with one: use the mode on-path, or choose a task with more rows"
         )
     return problem
+
+
+def _anchored(keep: KeepLike | None, path: TimedPath) -> tuple[Kept, ...]:
+    """What is kept, through the first pose of the path."""
+    every = as_kept(keep)
+    for one in every:
+        if one.frame == "tool" and not path.path.oriented:
+            raise InputError(f"keep '{one}' goes by the tool's axes at the start, and the path has positions only")
+    return tuple(one.anchored(path.pose(0.0)) for one in every)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,14 +14,15 @@ from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
 from holdfast.endurance.choice import Front, advanced
-from holdfast.endurance.comparison import beside
 from holdfast.endurance.endurance import Endurance, Found
+from holdfast.endurance.given import beside
 from holdfast.endurance.grid import Nodes, nodes_of
 from holdfast.endurance.problem import ON, Mode, Problem, posed
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.endurance.smoothing import smoothed
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
+from holdfast.keep.labels import KeepLike
 from holdfast.notice import each, says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
@@ -32,6 +33,7 @@ Array = NDArray[np.float64]
 
 _ALIKE = 1e-9  # of a probability: less is rounding
 _TRIED = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
+_AXES = 1  # along which the tool is held in a cone, beside the middle of that
 
 
 @checked
@@ -52,6 +54,7 @@ def endure(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
+    keep: KeepLike | None = None,
     compare: Sequence[Objective | str] = (),
 ) -> Endurance:
     """The motion along a path after which most locks of a joint, whichever and whenever, leave the rest of the path possible.
@@ -62,7 +65,8 @@ def endure(
     shortest, and smooths it where that costs nothing. A motion within the velocity limits comes first.
 
     With more redundancy the result is a lower bound: of the motions only those are looked at that hold further joints where
-    they are, and of a failed arm only the ways on that do; which joints, and where, is drawn and tried.
+    they are, or the axis that is kept in a cone, and of a failed arm only the ways on that do; which joints, and where, is
+    drawn and tried.
 
     Args:
         arm: The arm.
@@ -82,6 +86,10 @@ def endure(
         clearance: Keep the links of the arm apart; not looked at if not given. See :func:`holdfast.follow`.
         cell: Objects around the arm, or their file, to keep clear of before the lock and after it, at every sample.
         margin: m; from an object beyond what the cell keeps from it.
+        keep: What the tool keeps at every sample, before the lock and after it: :func:`holdfast.keep.upright`,
+            :func:`holdfast.keep.rail`, :func:`holdfast.keep.plane`, a label (``"upright:10deg"``), or several. Rows that the
+            task prescribes are those of the path, and it is checked that they keep it. Of the others a cone limits what the
+            arm may do; an axis kept exactly along a path of positions becomes two rows of the task.
         compare: Motions along the same path that the result is to be compared with: ``least-norm``, and for every index or
             susceptibility the motion by gradient projection and the best continuous one at every pose (:func:`holdfast.follow`
             with ``best``).
@@ -90,7 +98,8 @@ def endure(
         An :class:`Endurance` with the motion, its survival, the bound and the interval of the grid.
 
     Raises:
-        InputError: Rates, a start or options that do not fit.
+        InputError: Rates, a start or options that do not fit, a path that breaks what is kept, or a row kept exactly that the
+            task leaves free.
         TaskError: No redundancy, or detours with more than one degree of it.
         HoldfastError: A pose without a (clear) configuration, or no continuous motion along the path.
 
@@ -98,7 +107,20 @@ def endure(
     and its bound are ours.
     """
     problem = posed(
-        arm, path, rates, per_second, mode, task, samples, clearance, cell, margin, spacing=spacing, seed=seed, starts=starts
+        arm,
+        path,
+        rates,
+        per_second,
+        mode,
+        task,
+        samples,
+        clearance,
+        cell,
+        margin,
+        keep=keep,
+        spacing=spacing,
+        seed=seed,
+        starts=starts,
     )
     begin = None if start is None else _begun(problem, start)
     best = _Curves(problem, begin).motion(problem) if problem.spare == 1 else _holding(problem, begin)
@@ -118,8 +140,13 @@ class _Curves:
         self._found = problem.fibres
         for time, pose in zip(problem.time, self._found, strict=True):
             if not len(pose.q):
-                raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {pose.describe()[0]}")
+                why = problem.conditions.why_none(pose)
+                raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {why}")
         self._nodes = nodes_of(arm, self._found)
+        given_up = problem.conditions.given_up(np.array([x.q[0] for x in self._nodes]))
+        if given_up is not None:
+            when, trouble = problem.time[given_up[0]], given_up[1]
+            raise InputError(f"the path itself breaks what is kept: at {when:.4g} s the tool is {trouble}")
         if begin is not None:
             self._nodes[0] = Nodes.single(arm, begin, problem.spacing)
         of_path = problem.mode == "on-path"
@@ -173,16 +200,18 @@ def _holding(problem: Problem, begin: Array | None) -> Endurance:
 
     Which joints, and where, is looked for on a coarse grid; the best few are then looked at on the grid that was asked for.
     """
-    first = problem.first() if begin is None else begin[None]
-    coarse, tried = problem.coarser(), []
-    for q in each("configurations of the first pose", list(first)):
-        for joints in problem.sets:
+    tried = []
+    for asked, q in each("configurations of the first pose", list(_begun_from(problem, begin))):
+        coarse = asked.coarser()
+        for joints in asked.sets:
             values = {k: float(q[k]) for k in joints}
             try:
                 within, over = _Curves(coarse.holding(values), begin).most
+            except InputError:
+                raise
             except HoldfastError:
                 continue
-            tried.append((not np.isnan(within), over if np.isnan(within) else within, values))
+            tried.append((not np.isnan(within), over if np.isnan(within) else within, asked, values))
     if not tried:
         raise HoldfastError(
             f"no continuous motion along the path was found that holds {problem.spare - 1} joints: slow the path down, or give "
@@ -190,15 +219,32 @@ def _holding(problem: Problem, begin: Array | None) -> Endurance:
         )
     tried.sort(key=lambda x: x[:2], reverse=True)
     results, failed = [], None
-    for _, _, values in tried[:_TRIED]:
+    for _, _, asked, values in tried[:_TRIED]:
         try:
-            results.append(_Curves(problem.holding(values), begin).motion(problem))
+            results.append(_Curves(asked.holding(values), begin).motion(asked))
         except HoldfastError as error:  # the finer grid of poses holds one that the coarse one had not
             failed = error
     if not results:
         assert failed is not None
         raise failed
-    return max(results, key=_goodness)
+    best = max(results, key=_goodness)
+    if not problem.conditions.left:
+        return best
+    return Endurance.of(problem, best.q, survives=problem.judge(best.q), found=best.found)  # maybe a narrower one's
+
+
+def _begun_from(problem: Problem, begin: Array | None) -> Iterator[tuple[Problem, Array]]:
+    """The problem, and narrower ones that hold the axis of a cone, with configurations (n,) that their motions begin at."""
+    if begin is not None:
+        narrower = problem.narrower_at(begin)
+        yield from ((one, begin) for one in (problem, narrower) if one is not None)
+        return
+    first = problem.first()
+    yield from ((problem, q) for q in first)
+    axes = [problem.narrower(cone.direction) for cone in problem.conditions.left[:1] if cone.direction is not None]
+    for narrower in (*axes, *map(problem.narrower_at, first[:_AXES])):
+        if narrower is not None:
+            yield from ((narrower, q) for q in narrower.first())
 
 
 def _goodness(made: Endurance) -> tuple[bool, float]:
@@ -216,8 +262,12 @@ def _begun(problem: Problem, start: ArrayLike) -> Array:
         raise InputError(
             "the start is not on the first pose of the path, or outside the joint limits; leave it out to have one"
         )
-    if problem.kept is not None and float(problem.kept[0].room(q)) < problem.kept[1]:
-        raise InputError(f"at the start the arm {problem.kept[0].too_close(problem.kept[1], q)}; leave it out to have one")
+    room = problem.conditions.room
+    if room is not None and float(room[0].room(q)) < room[1]:
+        raise InputError(f"at the start the arm {room[0].too_close(room[1], q)}; leave it out to have one")
+    broken = problem.conditions.broken(q[None])
+    if broken is not None:
+        raise InputError(f"at the start the tool is {broken[1]}; leave it out to have one")
     on_pose: Array = problem.lock.tracer.corrected(q[None], first)[0][0]
     return on_pose
 

@@ -27,7 +27,7 @@ def as_trajectory(problem: Problem, q: Array) -> Trajectory:
     norm = np.linalg.norm(rates, axis=1)
     position, rotation = solver(arm, task).errors(joints, poses)
     objective = relative_manipulability(arm, task)
-    clearance, margin = problem.kept or (None, 0.0)
+    clearance, margin = problem.conditions.room or (None, 0.0)
     whole = np.ones(len(time))
     return Trajectory(
         arm=arm,

@@ -52,7 +52,7 @@ class Memory:
             occupied = place.exists() and any(place.iterdir())
             place.mkdir(parents=True, exist_ok=True)
         if occupied:
-            raise StoreError(f"'{folder}' is not empty and holds no search of designs; give a new or empty folder")
+            raise StoreError(f"'{folder}' is not empty and holds no search; give a new or empty folder")
         self._add({"search": self._plan})
 
     def part(self, name: str, make: Callable[[], Parts]) -> Parts:
@@ -62,10 +62,21 @@ class Memory:
             StoreError: The disk refuses; what was remembered before is safe.
         """
         if name not in self._parts:
-            made = make()
-            self._add({"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in made.items()}})
-            self._parts[name] = made
+            self.keep(name, make())
         return self._parts[name]
+
+    def known(self, name: str) -> Parts | None:
+        """Arrays by name, if they are remembered."""
+        return self._parts.get(name)
+
+    def keep(self, name: str, made: Parts) -> None:
+        """Remember arrays, made elsewhere.
+
+        Raises:
+            StoreError: The disk refuses; what was remembered before is safe.
+        """
+        self._add({"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in made.items()}})
+        self._parts[name] = made
 
     def _read(self, formerly: Mapping[str, Any] | None) -> None:
         try:

@@ -8,7 +8,6 @@ factorisation serves every failure.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import comb
 
 import casadi as ca
 import numpy as np
@@ -18,6 +17,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
+from holdfast.ceilings.ceiling import of_index
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index, WorstCase
 from holdfast.kernels.kernel import Kernel
@@ -34,28 +34,16 @@ _FLAT_SCORE = 1e-12  # below this square a root is drawn as a straight line, who
 _FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
 
 
-def _bound_note(n: int, m: int, size: int) -> str:
-    """How near a Jacobian of m rows and n columns can be to the Cauchy-Binet bound of ``size`` failures at a time."""
-    if size == 1 or m == 1 or size > n - m or (n, m, size) in ((6, 3, 2), (10, 5, 2)):
-        return ""
-    if (size == 2 and n - m == 2) or (m == 2 and size == n - 2):
-        # The least minor of n lines in a plane is at most that of a regular star: 2/n sin(pi/n).
-        return f"an upper bound, not attained: the best possible is {2 / n * np.sin(np.pi / n):.4f}"
-    return "an upper bound, not attained" if n <= 10 else "an upper bound; whether it is attained is not known"
-
-
 class RelativeManipulability(Index):
     r"""Share of the manipulability that is left when joints S lock.
 
     :math:`\rho_S = \sqrt{\det({}^SJ\,{}^SJ^\top)/\det(JJ^\top)} = \sqrt{\det(N_S N_S^\top)}`, where :math:`{}^SJ` is the
     task Jacobian without the columns S and :math:`N_S` the rows S of an orthonormal null-space basis of J.
 
-    The bound of one failure at a time is attained by some Jacobian of any size. That of several at a time holds always, but is
-    attained only where the rows of the null-space basis are equiangular lines that form a tight frame: for up to ten joints
-    and tasks of two rows or more those of 6 joints, 3 rows, 2 failures, and of 10, 5, 2. ``bound_note`` says so.
+    The bound is the least proven one (:mod:`holdfast.ceilings`). That of one failure at a time is attained by some Jacobian of
+    any size; of several at a time ``best_known`` is what some Jacobian attains, ``attained`` whether that is the bound.
 
-    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma; bound by
-    Cauchy and Binet.
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma.
     """
 
     source = "Abdi et al. 2012, eq. (3), (4)"
@@ -69,12 +57,9 @@ class RelativeManipulability(Index):
         length: float | None = None,
     ) -> None:
         super().__init__("relative manipulability", arm, task, failures=failures, length=length)
-        size = len(self.failures[0])
-        every = comb(arm.n, size)
-        if len(self.failures) == every and all(len(s) == size for s in self.failures):
-            # The squares over all sets of s joints sum to C(n - m, s) (Cauchy-Binet), so the smallest is at most their mean.
-            self.bound = float(np.sqrt(comb(arm.n - self.task.m, size) / every))
-            self.bound_note = _bound_note(arm.n, self.task.m, size)
+        self.ceiling = of_index(self)
+        if self.ceiling is not None:
+            self.bound, self.bound_note = self.ceiling.bound, self.ceiling.note
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
@@ -301,7 +286,7 @@ class Manipulability(RelativeManipulability):
     ) -> None:
         super().__init__(arm, task, failures, length=length)
         self.name = "manipulability"
-        self.bound = None
+        self.ceiling, self.bound, self.bound_note = None, None, ""
         # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
         self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
         linear = int(np.linalg.matrix_rank(self.task.rows[:, :3]))

@@ -16,6 +16,7 @@ from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
+from holdfast.ceilings.ceiling import Ceiling
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets
 from holdfast.failures.sets import require_redundant
@@ -76,12 +77,14 @@ class Index(Labelled, Objective):
         source: Paper and equation.
         bound: The value no configuration can beat, or None if there is none.
         bound_note: What is known of how near one can come to it, a phrase; empty where some Jacobian of this size attains it.
+        ceiling: Bound and best known value for all arms of this size, where there are such.
     """
 
     better: Better = "larger"
     source = ""
     bound: float | None = None
     bound_note = ""
+    ceiling: Ceiling | None = None
 
     @checked
     def __init__(
@@ -98,6 +101,16 @@ class Index(Labelled, Objective):
         self.task = as_task(arm, task, length)
         self.failures = failure_sets(arm, failures)
         require_redundant(arm, self.task.m, self.task.name, self.failures)
+
+    @property
+    def best_known(self) -> float | None:
+        """What some Jacobian of this size is known to attain; None where nothing is known."""
+        return None if self.ceiling is None else self.ceiling.best_known
+
+    @property
+    def attained(self) -> bool:
+        """True where the best known value is the bound."""
+        return self.ceiling is not None and self.ceiling.attained
 
     # ---- what a formula provides -------------------------------------------------------------------------------
 

@@ -16,6 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.errors import InputError, TaskError
+from holdfast.frameworks.rows import Differentiable, RowFunction
 from holdfast.kernels.program import SX
 from holdfast.linalg import HouseholderQR, lowest
 from holdfast.result import Shown
@@ -40,7 +41,7 @@ class Part:
     slopes: list[list[SX]]
 
 
-class Objective(Shown, ABC):
+class Objective(Shown, Differentiable, ABC):
     """A number by which :func:`holdfast.optimise` chooses: an index, a susceptibility, or a weighted sum of them.
 
     Objectives of one arm can be added, subtracted and multiplied by numbers: ``rho - 1e-4 * torque``.
@@ -65,6 +66,14 @@ class Objective(Shown, ABC):
     @abstractmethod
     def __call__(self, q: ArrayLike) -> Array:
         """The value at q (N, n) or (n,): (N,), or a scalar."""
+
+    @abstractmethod
+    def gradient(self, q: ArrayLike) -> Array:
+        """Exact gradient at q (N, n) or (n,), of the same shape, per rad and m; NaN where q is."""
+
+    def row_function(self) -> RowFunction:
+        """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
+        return RowFunction(name=self.name, sizes=(self.arm.n,), size=None, value=self, slopes=lambda q: (self.gradient(q),))
 
     @abstractmethod
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
@@ -196,6 +205,10 @@ class WeightedSum(Objective):
         """The value at q (N, n) or (n,): (N,), or a scalar."""
         return np.asarray(sum(w * objective(q) for w, objective in self.terms))
 
+    def gradient(self, q: ArrayLike) -> Array:
+        """Exact gradient at q (N, n) or (n,), of the same shape."""
+        return np.asarray(sum(w * objective.gradient(q) for w, objective in self.terms))
+
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
         """The parts of its summands."""
         return [
@@ -257,6 +270,10 @@ class Opposite(Objective):
     def __call__(self, q: ArrayLike) -> Array:
         """The value of the objective at q (N, n) or (n,): (N,), or a scalar."""
         return self.objective(q)
+
+    def gradient(self, q: ArrayLike) -> Array:
+        """That of the objective."""
+        return self.objective.gradient(q)
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
         """The negatives of the objective's parts; of the worst of several failures that of the first."""

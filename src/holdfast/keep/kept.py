@@ -124,7 +124,7 @@ def upright(angle: float, *, axis: ArrayLike = _FORWARD, direction: ArrayLike = 
         within: m and rad within which rows are kept between two waypoints; here only with an angle of 0.
 
     Returns:
-        What :func:`holdfast.recover` takes as ``keep``.
+        What :func:`holdfast.recover` and :func:`holdfast.endure` take as ``keep``.
 
     Raises:
         InputError: An angle out of bounds, or a direction of length 0.
@@ -150,7 +150,7 @@ def rail(direction: ArrayLike, *, frame: Frame = "base", pose: ArrayLike | None 
         within: m and rad within which rows are kept between two waypoints, at which they are met to 1e-6.
 
     Returns:
-        What :func:`holdfast.recover` takes as ``keep``.
+        What :func:`holdfast.recover` and :func:`holdfast.endure` take as ``keep``.
 
     Raises:
         InputError: A direction of length 0, or a pose or frame that cannot be read.
@@ -190,7 +190,7 @@ def plane(
         within: m and rad within which rows are kept between two waypoints, at which they are met to 1e-6.
 
     Returns:
-        What :func:`holdfast.recover` takes as ``keep``.
+        What :func:`holdfast.recover` and :func:`holdfast.endure` take as ``keep``.
 
     Raises:
         InputError: An angle out of bounds, a normal of length 0, or a place or frame that cannot be read.

@@ -69,7 +69,12 @@ def _value(key: str, text: str) -> Any:
 
 
 def all_kept(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[Kept, ...]:
-    """What is kept, through the tool's pose (4, 4) at the start.
+    """What is kept, through the tool's pose (4, 4) at the start; raises as :func:`as_kept`."""
+    return tuple(one.anchored(start) for one in as_kept(keep))
+
+
+def as_kept(keep: KeepLike | None) -> tuple[Kept, ...]:
+    """What is kept, from labels too.
 
     Raises:
         InputError: Something that is neither a :class:`holdfast.keep.Kept` nor its label.
@@ -81,4 +86,4 @@ def all_kept(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[Kept, .
             raise InputError(
                 f"keep holds {one!r}; give what hf.keep.upright, rail or plane make, or a label such as 'upright:0.1'"
             )
-    return tuple(one.anchored(start) for one in made)
+    return tuple(made)

@@ -3,6 +3,7 @@ from holdfast.kernels.kernel import BACKENDS as BACKENDS
 from holdfast.kernels.kernel import Kernel as Kernel
 from holdfast.kernels.kernel import Single as Single
 from holdfast.kernels.kernel import default_backend as default_backend
+from holdfast.kernels.kernel import set_backend as set_backend
 from holdfast.kernels.loop import Loop as Loop
 from holdfast.kernels.loop import LoopResult as LoopResult
 from holdfast.kernels.program import SX as SX

@@ -16,12 +16,11 @@ import tempfile
 from functools import lru_cache
 from pathlib import Path
 
-from holdfast.kernels import llvm_backend
+from holdfast.kernels.llvm import machine_code
 
 _MAGIC = b"holdfast kernel 1\n"
 _LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
 _written: dict[Path, int] = {}  # bytes that this process added to each folder since it last looked at all of it
-_TRANSLATION = ("llvm_ir.py", "llvm_backend.py", "llvm_arithmetic.py")  # a kernel made by other code is another kernel
 
 
 def folder() -> Path | None:
@@ -45,9 +44,11 @@ def _ours(found: os.stat_result) -> bool:
 
 @lru_cache(maxsize=1)
 def _machine() -> str:
-    here = llvm_backend.host()
-    code = hashlib.sha256(b"".join(Path(__file__).with_name(name).read_bytes() for name in _TRANSLATION)).hexdigest()
-    return "|".join([code, llvm_backend.version(), here.cpu, here.features, repr(here.machine)])
+    here = machine_code.host()
+    # A kernel made by other code is another kernel.
+    sources = [file for folder in ("llvm", "gpu") for file in sorted(Path(__file__).with_name(folder).glob("*.py"))]
+    code = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()
+    return "|".join([code, machine_code.version(), here.cpu, here.features, repr(here.machine)])
 
 
 def key(digest: str, *what: object) -> str:

@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 
 from holdfast import notice
 from holdfast.caching import cached_property
-from holdfast.kernels import cache, llvm_backend
-from holdfast.kernels.llvm_arithmetic import Machine
+from holdfast.kernels import cache
+from holdfast.kernels.llvm import machine_code
+from holdfast.kernels.llvm.arithmetic import Machine
 from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
 
@@ -92,7 +93,7 @@ class Compiled:
         return call
 
     @cached_property
-    def one(self) -> llvm_backend.Code:
+    def one(self) -> machine_code.Code:
         """The code for a single row: for loops that control. The same bits again."""
         level = int(self._program.size <= LONG)
         return self._stored(level, 1) or self._make(level, 1)
@@ -119,23 +120,23 @@ class Compiled:
         self._code, self.level = self._stored(1) or self._make(1, aside=True), 1
 
     def _lanes(self, level: int) -> int:
-        lanes = llvm_backend.host().machine.lanes
+        lanes = machine_code.host().machine.lanes
         return lanes if level and self._program.size <= WIDE else min(lanes, 8)
 
     def _key(self, level: int, lanes: int) -> str:
         return cache.key(self._program.digest, level, lanes)
 
-    def _stored(self, level: int, lanes: int | None = None) -> llvm_backend.Code | None:
+    def _stored(self, level: int, lanes: int | None = None) -> machine_code.Code | None:
         data = cache.load(self._key(level, lanes or self._lanes(level)))
-        return None if data is None else llvm_backend.Code(data)
+        return None if data is None else machine_code.Code(data)
 
-    def _make(self, level: int, lanes: int | None = None, aside: bool = False) -> llvm_backend.Code:
+    def _make(self, level: int, lanes: int | None = None, aside: bool = False) -> machine_code.Code:
         lanes = lanes or self._lanes(level)
-        program, machine = self._program, Machine(lanes, llvm_backend.host().machine.fused)
-        with notice.long(f"compiling '{program.name}'", 0 if aside else program.size * llvm_backend.COMPILING[level]):
-            data = llvm_backend.compile_program(program, level, machine)
+        program, machine = self._program, Machine(lanes, machine_code.host().machine.fused)
+        with notice.long(f"compiling '{program.name}'", 0 if aside else program.size * machine_code.COMPILING[level]):
+            data = machine_code.compile_program(program, level, machine)
         cache.store(self._key(level, lanes), data)
-        return llvm_backend.Code(data)
+        return machine_code.Code(data)
 
 
 _jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
@@ -177,7 +178,7 @@ def _hold() -> None:
     In this order: a job that runs needs LLVM to end.
     """
     _busy.acquire()
-    _fork.enter_context(llvm_backend.lock())
+    _fork.enter_context(machine_code.lock())
 
 
 def _go_on() -> None:

@@ -101,7 +101,7 @@ _FORMS = {
 }
 
 _HELPERS = {
-    # An angle beyond 1e15 means nothing in double precision; see holdfast.kernels.llvm_arithmetic.
+    # An angle beyond 1e15 means nothing in double precision; see holdfast.kernels.llvm.arithmetic.
     "sine": "const sine=a=>a*a<1e30?Math.sin(a):NaN;",
     "cosine": "const cosine=a=>a*a<1e30?Math.cos(a):NaN;",
     "tangent": "const tangent=a=>a*a<1e30?Math.tan(a):NaN;",

@@ -21,15 +21,41 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 Array = NDArray[np.float64]
 
 _SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
-BACKENDS = ("llvm", "casadi")
+BACKENDS = ("llvm", "casadi", "cuda")
+_chosen: str | None = None
 
 
 def default_backend() -> str:
-    """``HOLDFAST_BACKEND`` if set, else ``llvm``."""
-    name = os.environ.get("HOLDFAST_BACKEND") or "llvm"
-    if name not in BACKENDS:
-        raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}")
+    """That of :func:`set_backend`, else ``HOLDFAST_BACKEND`` if set, else ``llvm``."""
+    return _checked(_chosen or os.environ.get("HOLDFAST_BACKEND") or "llvm")
+
+
+def set_backend(name: str | None) -> None:
+    """Use a backend for all kernels made from now on; those that arms, indices and laws have made already keep theirs.
+
+    Args:
+        name: ``"llvm"``, ``"casadi"``, ``"cuda"`` or ``"cuda:1"`` (see :class:`Kernel`); None: the default again.
+
+    Raises:
+        KernelError: It is not known, or there is no such GPU.
+    """
+    global _chosen
+    if name is not None and _checked(name).startswith("cuda"):
+        from holdfast.kernels.gpu.driver import device
+
+        device(_ordinal(name))
+    _chosen = name
+
+
+def _checked(name: str) -> str:
+    kind, colon, number = name.partition(":")
+    if kind not in BACKENDS or (colon and (kind != "cuda" or not number.isdecimal())):
+        raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}, cuda:1 for the second GPU")
     return name
+
+
+def _ordinal(name: str) -> int:
+    return int(name.partition(":")[2] or 0)
 
 
 class Kernel:
@@ -46,13 +72,14 @@ class Kernel:
         name: For messages.
         inputs: CasADi ``SX`` symbols.
         outputs: CasADi ``SX`` expressions of them.
-        backend: ``"llvm"`` (machine code, SIMD, threads) or ``"casadi"`` (virtual machine); None: the default.
+        backend: ``"llvm"`` (machine code, SIMD, threads), ``"casadi"`` (virtual machine), ``"cuda"`` (the first NVIDIA GPU) or
+            ``"cuda:1"`` (the second); None: the default.
 
     Attributes:
         lanes: Rows handled at once.
 
     Raises:
-        KernelError: Unknown backend, or an operation the backend does not have.
+        KernelError: Unknown backend, an operation the backend does not have, or no GPU, no driver or too old a GPU.
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], *, backend: str | None = None) -> None:
@@ -66,16 +93,28 @@ class Kernel:
         return kernel
 
     def _take(self, program: Program, backend: str) -> None:
-        self.program, self.name, self.backend = program, program.name, backend
-        if self.backend not in BACKENDS:
-            raise KernelError(f"backend '{self.backend}' is not known; use one of {', '.join(BACKENDS)}")
+        self.program, self.name, self.backend = program, program.name, _checked(backend)
         self._compiled = Compiled(program) if backend == "llvm" else None
+        self._on_device = None
+        if backend.startswith("cuda"):
+            from holdfast.kernels.gpu.launch import OnDevice
+
+            self._on_device = OnDevice(program, _ordinal(backend))
         self.lanes = 1 if self._compiled is None else self._compiled.lanes
         rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
         self._chunk = max(self.lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
         self._scratch = threading.local()
+        self._elsewhere: dict[str, Kernel] = {}
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
+
+    def on(self, backend: str) -> Kernel:
+        """The same kernel on another backend, made once."""
+        made = self._elsewhere.get(backend)
+        if made is None:
+            made = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
+            made._take(self.program, backend)
+        return made
 
     @property
     def made_of(self) -> str | None:
@@ -118,6 +157,9 @@ class Kernel:
 
     def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
         count = 1 if rows is None else rows
+        if self._on_device is not None:
+            out = self._on_device.rows(arrays, count, self.program.n_out if first is None else first)
+            return out, bool(np.isnan(out[:, 0]).any())
         out = np.empty((count, self.program.n_out if first is None else first))
         if 0 < count <= self._chunk:
             return out, self._run(arrays, out, 0, count, object())
@@ -175,7 +217,7 @@ class Kernel:
             outputs: (n_out, W).
             used: A multiple of ``lanes``: only so many of the columns, the first ones.
         """
-        if self._compiled is None:
+        if self.backend == "casadi":
             return lambda: casadi_backend.call(self.program.function, inputs[:, :used], outputs[:, :used])
         for a, rows in ((inputs, self.program.n_in), (outputs, self.program.n_out)):
             if a.dtype.char != "d" or not a.flags.c_contiguous or a.shape != (rows, inputs.shape[1]) or a.shape[1] % self.lanes:
@@ -183,7 +225,31 @@ class Kernel:
                     f"kernel '{self.name}': columns have shape {a.shape} and type {a.dtype}; they must be contiguous doubles "
                     f"of shape ({rows}, W), W a multiple of {self.lanes}"
                 )
+        if self._on_device is not None:
+            on_device = self._on_device
+            return lambda: on_device.columns(inputs[:, :used], outputs[:, :used])
+        assert self._compiled is not None
         return self._compiled.bound(inputs, outputs, used)
+
+    def exchange(self, *inputs: Any, stream: int = 1) -> Any:
+        """Evaluate on the GPU what is there, without a copy: inputs and results are shared by DLPack.
+
+        Args:
+            inputs: As for calling it, doubles with ``__dlpack__`` on the kernel's GPU: of PyTorch, CuPy, JAX, Warp.
+            stream: Handle of the stream to use, ``torch.cuda.current_stream().cuda_stream`` for example; 1 is the default one.
+
+        Returns:
+            An array on the GPU for each output (a tuple if there are several), (N, ...), for ``from_dlpack`` of any of them.
+
+        Raises:
+            KernelError: The kernel is not on a GPU.
+            InputError: An input that is not such an array, or of a wrong shape.
+        """
+        if self._on_device is None:
+            raise KernelError(f"kernel '{self.name}' is on the processor; make it with backend='cuda' for arrays on a GPU")
+        if len(inputs) != len(self._in_dims):
+            raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
+        return self._on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
 
     def single(self) -> Single:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""
@@ -249,8 +315,11 @@ class Single:
 
     def __init__(self, kernel: Kernel) -> None:
         program, compiled = kernel.program, kernel._compiled
+        if kernel._on_device is not None:
+            compiled = Compiled(program)  # a single row is no work for a GPU; the processor has the same bits for it
         self.inputs, self._outputs = np.zeros(program.n_in), np.zeros(program.n_out)
-        self._kernel, self._given = kernel, (self.inputs.ctypes.data, self._outputs.ctypes.data, 1, 1)
+        self._kernel, self._compiled = kernel, compiled  # the code lives as long as what compiled it
+        self._given = (self.inputs.ctypes.data, self._outputs.ctypes.data, 1, 1)
         self._call = None if compiled is None else compiled.one.call
 
     def run(self) -> Array:

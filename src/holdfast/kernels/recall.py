@@ -33,7 +33,7 @@ def recalled(build: Callable[P, K]) -> Callable[P, K]:
 
     @wraps(build)
     def from_memory(*args: P.args, **kwargs: P.kwargs) -> K:
-        recipe = _recipe(build, args, kwargs) if default_backend() == "llvm" else None
+        recipe = _recipe(build, args, kwargs) if default_backend() != "casadi" else None
         if recipe is None:
             return build(*args, **kwargs)
         entry = cache.key(recipe, "facts")

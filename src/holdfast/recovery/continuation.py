@@ -25,6 +25,7 @@ Flags = NDArray[np.bool_]
 _SPACING = 0.01  # m or rad of the end effector between samples
 _LEAST, _MOST = 20, 400  # samples
 _STARTS_PER_SET = 12
+_FINER = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
 _INNER = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
 _HALVED = 8  # times what is between two waypoints is, until it is near the path
 
@@ -98,27 +99,34 @@ def rest_of_path(
     poses = path.pose(share)
     found = np.array([not space.spent and _reached(solver, space, pose, at, rng) for pose in each("poses of the path", poses)])
     first = configurations_of(solver, space, metric, poses[0], at, starts, rng)
-    kept = np.ones((len(first), solver.rows.m))
-    q, last = _tracked(solver, space, poses, first, kept)
-    # A pose on the way is found where a motion passes it.
-    found |= np.arange(len(share)) <= last.max(initial=-1)
-    furthest = float(share[last.max()]) if len(last) else 0.0
     made = RestOfPath(
-        furthest=furthest,
-        share=share,
-        found=found,
-        q=np.zeros((0, solver.arm.n)),
-        deviation=0.0,
-        given_up=None,
-        starts=len(first),
+        furthest=0.0, share=share, found=found, q=np.zeros((0, solver.arm.n)), deviation=0.0, given_up=None, starts=len(first)
     )
-    whole = np.flatnonzero(last == len(share) - 1)
-    motions = _by_length(metric, [q[:, k] for k in whole])
-    if not motions and space.free.sum() > solver.rows.m and _all_reached(solver, space, poses, found, at, starts, rng):
-        graph = through_layers(solver, space, metric, poses, first, at, starts, rng)
-        furthest = max(furthest, float(share[graph.last]))
-        made, motions = replace(made, furthest=furthest, graph=graph.size), graph.motions
+    made, motions = _followed(made, solver, space, metric, path, first)
+    if not motions and _all_reached(solver, space, poses, made.found, at, starts, rng):
+        if space.free.sum() > solver.rows.m:
+            graph = through_layers(solver, space, metric, poses, first, at, starts, rng)
+            furthest = max(made.furthest, float(share[graph.last]))
+            made, motions = replace(made, furthest=furthest, graph=graph.size), graph.motions
+        if not motions:
+            made, motions = _followed(made, solver, space, metric, path, first, _FINER)
     return (along(made, solver, path, motions[0]) if motions else made), motions
+
+
+def _followed(
+    made: RestOfPath, solver: RowSolver, space: Space, metric: Metric, path: Path, first: Array, finer: int = 1
+) -> tuple[RestOfPath, list[Array]]:
+    """The path followed from configurations (R, n) of its first pose, by samples that are finer than those made."""
+    places = np.arange((len(made.share) - 1) * finer + 1) / finer
+    share = np.interp(places, np.arange(len(made.share)), made.share)
+    q, last = _tracked(solver, space, path.pose(share), first, np.ones((len(first), solver.rows.m)))
+    furthest = max(made.furthest, float(share[last.max(initial=0)]))
+    whole = np.flatnonzero(last == len(share) - 1)
+    if whole.size:
+        made = replace(made, share=share, found=np.ones(len(share), dtype=bool))
+    # A pose on the way is found where a motion passes it.
+    made = replace(made, furthest=furthest, found=made.found | (made.share <= furthest) & (last.max(initial=-1) >= 0))
+    return made, _by_length(metric, [q[:, k] for k in whole])
 
 
 def without_rows(

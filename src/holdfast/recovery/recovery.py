@@ -44,7 +44,7 @@ class Verdict:
         why: The proof, what was searched, or at which level the search was spent; empty if solved.
         kind: Of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a pose
             of the path``, ``rows kept`` (all the way, which the goal itself breaks), ``disconnected`` (the goal from the
-            start); empty if there is none.
+            start, or the end of a tool path from its beginning); empty if there is none.
     """
 
     answer: Answer
@@ -160,6 +160,8 @@ class Recovery(Result):
             the bound, or where that leaves less exact distances.
         margin: m.
         keep: What is kept along the whole motion.
+        tolerance: m and rad by which the goal or the tool path may be missed, if that was said.
+        proved_within: The proof holds, too, for all that misses the goal or the tool path by no more.
         seed: The same seed gives the same result.
     """
 
@@ -189,6 +191,8 @@ class Recovery(Result):
     clearance: Clearance | None
     margin: float
     keep: tuple[Kept, ...] = ()
+    tolerance: tuple[float, float] | None = None
+    proved_within: bool = False
     seed: int
 
     @property
@@ -219,7 +223,7 @@ class Recovery(Result):
                 return Verdict("solved")
             return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
         if self.proof_kind:
-            return Verdict("proved infeasible", self.proof or "", self.proof_kind)
+            return Verdict("proved infeasible", f"{self.proof or ''}{self._within}", self.proof_kind)
         if self.ending >= Ending.START_OUTSIDE_LIMITS:
             return Verdict("proved infeasible", self.reason, "start")
         if self.closed_in:
@@ -235,6 +239,14 @@ class Recovery(Result):
         if self.rest is not None and not self.rest.finished:
             return Verdict("argued infeasible", self.rest.why)
         return Verdict("argued infeasible", self.reason)
+
+    @property
+    def _within(self) -> str:
+        """What the proof says of what may be missed."""
+        if self.tolerance is None:
+            return ""
+        by = f"{1e3 * self.tolerance[0]:.4g} mm and {np.rad2deg(self.tolerance[1]):.4g} deg"
+        return f"; so is what misses it by {by}" if self.proved_within else f"; not proved of what misses it by {by}"
 
     def require_ok(self) -> Recovery:
         """Itself, or :class:`holdfast.HoldfastError` with the reason if anything was dropped."""

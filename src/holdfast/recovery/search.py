@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import chain
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -27,9 +26,10 @@ from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_p
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.flood import disconnected, holds_configuration, may_meet
-from holdfast.recovery.proofs.reach import every_clear, telling_first, unreachable
+from holdfast.recovery.proofs.of_path import proved_of_path
+from holdfast.recovery.proofs.reach import EXACT, Tolerance, every_clear, nothing_within, unreachable
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
-from holdfast.recovery.recovery import Ending, Leg, Recovery
+from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Route, find_route, in_vain
 from holdfast.recovery.rows import RowSolver, row_solver
@@ -44,8 +44,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-_PROVED = 3  # poses of a path, of which no configuration was found, that are tried to be proved to have none
 
 
 @checked
@@ -69,6 +67,7 @@ def recover(
     starts: int = 256,
     tries: int = 4,
     time_limit: float | None = None,
+    tolerance: Tolerance | None = None,
     accelerations: AccelerationsLike | None = None,
     period: float = 0.01,
     seed: int = 0,
@@ -108,6 +107,8 @@ def recover(
         tries: Searches for a route where straight lines are blocked; when a quarter of them found none, no more are made.
         time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
             seed need not give the same result.
+        tolerance: m and rad by which each row of the goal or the tool path may be missed without harm. What is proved to be
+            impossible is then proved with that too if it can be, and ``proved_within`` says so; motions do not use it.
         accelerations: Limits, rad/s^2 and m/s^2, within which the motion found is timed as ``timed`` of the result: a number, n
             numbers, or one by joint. Its corners are rounded where that is proved to keep limits, rows and clearance; along a
             tool path by at most half a millimetre and a quarter of a degree; elsewhere the arm stops there.
@@ -130,6 +131,8 @@ def recover(
             raise InputError(f"{name} is {number}; it must be {least} or more")
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
+    if tolerance is not None and (len(tolerance) != 2 or not all(0 <= x < np.inf for x in tolerance)):
+        raise InputError(f"tolerance is {tolerance}; give two finite numbers of 0 or more, in m and rad")
     if not (np.isfinite(period) and period > 0):
         raise InputError(f"period is {period}; it must be above 0, in seconds")
     if not np.isfinite(margin):
@@ -161,6 +164,7 @@ def recover(
         clearance=kept,
         margin=margin,
         keep=all_kept(keep, arm.forward_kinematics(start)),
+        tolerance=None if tolerance is None else (float(tolerance[0]), float(tolerance[1])),
         seed=seed,
     )
     standing = np.where(free, start, degraded.lo)
@@ -248,7 +252,7 @@ class _Search:
         rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
         self._look("following the tool path")
         if not rest.finished:
-            self._prove_of_path(rest.share, rest.found, path.pose(rest.share), here)
+            self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
         return self._reach(here, path, rest, motions) if motions else rest
@@ -258,9 +262,12 @@ class _Search:
         route = self._route(here, np.stack([m[0] for m in motions]))
         self._look("looking for a route to the tool path")
         if route is None:
-            proof = disconnected(self.space, here, may_meet(self.space, self.solver.rows, path.pose(rest.share[:1])))
+            allowed = self.made.tolerance or EXACT
+            holds = may_meet(self.space, self.solver.rows, path.pose(rest.share[:1]), allowed)
+            proof = disconnected(self.space, here, holds)
             if proof is not None and not self.made.proof_kind:
-                self.made = replace(self.made, proof=f"at the beginning of the tool path: {proof}", proof_kind="disconnected")
+                why = f"at the beginning of the tool path: {proof}"
+                self.made = replace(self.made, proof=why, proof_kind="disconnected", proved_within=True)
             return replace(rest, q=np.zeros((0, self.made.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
         if rest.graph:
@@ -277,20 +284,6 @@ class _Search:
             motion[0] = here
         self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
-
-    def _prove_of_path(self, share: Array, found: Flags, poses: Array, here: Array) -> None:
-        """That one pose of the path cannot be met, if any can be proved to be so."""
-        order = list(telling_first(len(poses)))
-        broken = ((k, broken_by(self.made.keep, self.solver.rows, poses[k]) or None) for k in order)
-        tried = ((k, unreachable(self.solver, self.space.free, here, poses[k])) for k in order)
-        hardest = [k for k in order if not found[k]][:_PROVED]
-        made = self.made
-        boxes = ((k, self._every(poses[k])[1]) for k in hardest)
-        for k, proof in chain(broken, tried, boxes):
-            if proof is not None:
-                at = f"at {100 * share[k]:.1f} % of the tool path {proof}"
-                self.made = replace(made, proof=at, proof_kind="a pose of the path")
-                return
 
     def _every(self, pose: Array) -> tuple[Configurations | None, str | None]:
         return every_clear(self.made.degraded, self.made.task, pose, self.space, self.made.clearance)
@@ -335,11 +328,11 @@ class _Search:
                 f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
                 f"{self._in_the_way(here, goals[0])}"
             )
-            holds = may_meet(self.space, self.solver.rows, aim.poses)
+            holds = may_meet(self.space, self.solver.rows, aim.poses, made.tolerance or EXACT)
             proof = disconnected(self.space, here, holds if aim.q is None else holds_configuration(self.space, aim.q))
             if proof is not None and aim.lost is None:
                 ending = Ending.PROVED_DISCONNECTED
-                return replace(made, ending=ending, proof=proof, proof_kind="disconnected", reason=proof)
+                return replace(made, ending=ending, proof=proof, proof_kind="disconnected", proved_within=True, reason=proof)
             why, closed_in = "; ".join(reasons), self.space.closed_in
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
@@ -350,7 +343,11 @@ class _Search:
         bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
         reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
         if proof is not None:
-            made = replace(made, proof=proof, proof_kind="reach bound" if None not in bounds else "boxes")
+            kind: ProofKind = "reach bound" if None not in bounds else "boxes"
+            within = made.tolerance is not None and all(
+                nothing_within(made.degraded, made.task, pose, self.space, made.tolerance) for pose in aim.poses
+            )
+            made = replace(made, proof=proof, proof_kind=kind, proved_within=within)
         offers = [
             (choice, pose)
             for pose in aim.poses

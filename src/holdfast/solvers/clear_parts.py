@@ -1,7 +1,8 @@
-"""The parts of a curve of configurations that are clear of the arm itself and its cell: between points, not only at them."""
+"""The parts of a curve of configurations that are clear, or meet another inequality: between points, not only at them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,43 +16,43 @@ from holdfast.solvers.curve_tracing import Component, Tracer
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-FINEST = 5e-4  # m of possible change: what cannot be told clear at this ends the part
+FINEST = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
 _BENT = 1.1  # a curve is longer than the straight piece between two of its points by less than this
 
 
 @dataclass(frozen=True)
 class Clear:
-    """What is kept clear of, and how fast that can change.
+    """What must be kept, and how fast that can change.
 
     Attributes:
-        clearance: Whose room is kept.
-        margin: At least, m.
-        slopes: (P, n) of its pairs, m per rad and m.
+        gaps: Of configurations (N, n) what is left (N, P) of each of P rooms, m or rad; below 0 it is not clear.
+        slopes: (P, n) how fast they can change, m or rad per rad and m.
+        names: (P,) of what ends a part where the room is used up.
     """
 
-    clearance: Clearance
-    margin: float
+    gaps: Callable[[Array], Array]
     slopes: Array
+    names: Sequence[str]
 
     @classmethod
     def of(cls, clearance: Clearance, margin: float) -> Clear:
-        """For configurations within the limits of its arm."""
-        return cls(clearance, margin, clearance.changes(*finite_limits(clearance.arm)))
+        """The distance of every pair of a clearance beyond what it keeps, for configurations within the limits of its arm."""
 
-    def gaps(self, q: Array) -> Array:
-        """(N, P) distance of every pair beyond what must be kept, m."""
-        return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)
+        def gaps(q: Array) -> Array:
+            return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
+
+        return cls(gaps, clearance.changes(*finite_limits(clearance.arm)), clearance.pair_names)
 
     def keeps(self, q: Array) -> Flags:
         """(N,) True where enough room is left at q (N, n)."""
-        return np.asarray(self.clearance.room(q) >= self.margin)
+        return np.asarray((self.gaps(q) >= 0).all(axis=1))
 
     def parts(self, tracer: Tracer, pose: Array, whole: Component) -> list[Component]:
         """The parts of a curve of a pose (4, 4) that are clear, in order; what ends them by name.
 
-        Between two of its points, at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
-        most that its distance can change on the way (:meth:`Clearance.changes`). Pieces for which that does not do are halved,
-        by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
+        Between two of its points, at which d_1 and d_2 of a room are left, no less than ``(d_1 + d_2 - L) / 2`` is, L the
+        most that it can change on the way (of a distance :meth:`Clearance.changes`). Pieces for which that does not do are
+        halved, by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
         """
         q = whole.q
         if whole.closed:
@@ -105,6 +106,6 @@ class Clear:
         return found
 
     def _name(self, inside: Array, outside: Array) -> str:
-        """The pair that ends a part: the nearest just beyond its end, or at it where nothing is known of beyond."""
+        """What ends a part: the least room just beyond its end, or at it where nothing is known of beyond."""
         there = outside if np.isfinite(outside).all() else inside
-        return self.clearance.pair_names[int(np.argmin(there))]
+        return self.names[int(np.argmin(there))]

@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import ROWS, OutOfReachClaim
-from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index
+from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index, need_room
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain, Reach
+from holdfast.certificates.tree import Tell
 
 Array = NDArray[np.float64]
 
@@ -81,10 +82,8 @@ def ranges(claim: OutOfReachClaim) -> Array:
     return kept
 
 
-def exclude(
-    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
-) -> Exclusion:
-    """Search for a witness, then for a proof, until a time (``monotonic``) or ``stop``; ``tell`` hears what part is closed."""
+def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell) -> Exclusion:
+    """Search for a witness, then for a proof, until a time (``monotonic``) or ``stop``; ``tell`` hears how far it is."""
     rng = np.random.default_rng(seed)
     found = _witness(claim, rng)
     if found is not None:
@@ -101,8 +100,10 @@ def exclude(
             root, _ = _Apart(chain, lemmas, m)(box.mean(axis=1)[None], np.diff(box).T / 2)
             if root[0] != OPEN:  # nothing more is needed
                 break
+    test = _Apart(chain, lemmas, m)
+    need_room(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
     main = Halving(box, halvings)
-    finished = main.run(_Apart(chain, lemmas, m), until, stop, tell)
+    finished = main.run(test, until, stop, tell)
     tree = main.in_order()
     used = [k for k in range(len(lemmas)) if LEMMA + k in tree]
     renamed = {LEMMA + k: LEMMA + new for new, k in enumerate(used)}

@@ -13,6 +13,7 @@ from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.exclusion import exclude
 from holdfast.certificates.proof import Halved, early
+from holdfast.certificates.tree import Tell
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,9 +48,7 @@ class Refutation(Halved):
         ]
 
 
-def refuted(
-    claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Callable[[float], None]
-) -> Refutation:
+def refuted(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell) -> Refutation:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()
     found = exclude(claim, halvings, seed, until, stop, tell)

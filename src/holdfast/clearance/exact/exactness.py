@@ -159,6 +159,11 @@ class Exactness:
         lacking = {self._groups((a, b)) for a, b in self._ignored if (min(a, b), max(a, b)) not in self.capsules.apart}
         return {links: [] if links in lacking else columns for links, columns in found.items()}
 
+    @property
+    def own_bodies(self) -> list[tuple[list[int], list[tuple[int, int]]]]:
+        """Of each two links: their pairs of the clearance, and bodies that are checked, by their positions in ``parts``."""
+        return [(columns, self._between(*links)) for links, columns in self._columns.items()]
+
     # ---- bounds --------------------------------------------------------------------------------------------------
 
     def _bounds(self, q: Array, *, near: bool) -> Array:

@@ -9,9 +9,8 @@ import numpy as np
 import typer
 
 import holdfast as hf
+from holdfast.cli.before.certify_path import path
 from holdfast.cli.certify_options import (
-    REFUTED,
-    REJECTED,
     AnglesOption,
     AroundOption,
     BoxOption,
@@ -24,11 +23,13 @@ from holdfast.cli.certify_options import (
     RotationOption,
     RowsOption,
     SizeOption,
+    StoreOption,
     TimeOption,
     TurnsOption,
     WithinOption,
+    WorkersOption,
 )
-from holdfast.cli.larger.study import stopping
+from holdfast.cli.certify_search import proved
 from holdfast.cli.options import (
     NOT_MET,
     ArmArgument,
@@ -43,10 +44,9 @@ from holdfast.cli.options import (
     read_by_joint,
     read_numbers,
 )
-from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import printed
 
 command = typer.Typer(
     name="certify",
@@ -67,6 +67,8 @@ def reach(
     degrees: AnglesOption = False,
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -79,7 +81,7 @@ def reach(
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -92,7 +94,8 @@ def reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, plot, **how)
 
 
 @command.command("out-of-reach")
@@ -128,7 +131,7 @@ def out_of_reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -154,12 +157,14 @@ def tolerant(
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
     seed: SeedOption = 0,
-    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts.")] = Path(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the certificate and those of its parts; or FILE.zip.")] = Path(
         "certificates"
     ),
     plot: PlotOption = None,
@@ -168,7 +173,7 @@ def tolerant(
     """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
@@ -182,7 +187,8 @@ def tolerant(
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
-    _proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, plot, **how)
 
 
 @command.command()
@@ -221,7 +227,7 @@ def ceiling(
         failures=read_failures(model, failures),
         task=task,
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -260,7 +266,10 @@ def floor(
         failures=read_failures(model, failures),
         task=task,
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+command.command()(path)
 
 
 def _box_of(
@@ -306,23 +315,6 @@ def structural_zero(
         raise typer.Exit(NOT_MET)
     file = proof.write(out)
     printed(hf.check_certificate(file) if check else proof, json_, [file])
-
-
-def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
-    """Search, write, check, draw, print."""
-    with stopping("") as stop, progress_bar(as_json, "ten-thousandths") as progress:
-        proof = hf.certify(claim, **how, progress=progress, stop=stop)
-    file = proof.write(out)
-    found = hf.check_certificate(file) if check and not stop() else None
-    printed(found or proof, as_json, [file, *drawn(proof, plot)])
-    if stop():
-        raise KeyboardInterrupt
-    if found is not None and found.rejected:
-        raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
-        raise typer.Exit(REFUTED)
-    if not proof.ok:
-        raise typer.Exit(NOT_MET)
 
 
 def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:

@@ -27,6 +27,7 @@ from holdfast.cli.options import (
     DurationOption,
     HoldOption,
     JsonOption,
+    KeepOption,
     MotionCsvOption,
     OutOption,
     PathArgument,
@@ -71,6 +72,7 @@ def command(
         ),
     ] = None,
     inject: Annotated[int, typer.Option("--inject", min=0, help="Try so many locks at random times.")] = 0,
+    keep: KeepOption = None,
     cell: CellOption = None,
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
@@ -91,7 +93,7 @@ def command(
     Example: holdfast endure panda line.yaml --out endured
     """
     from holdfast.arm.task import task_of_path
-    from holdfast.endurance.comparison import LEAST_NORM
+    from holdfast.endurance.given import LEAST_NORM
 
     check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
@@ -110,6 +112,7 @@ def command(
         seed=seed,
         clearance=read_kept(model, clearance, capsules, radius, margin, cell, meshes),
         margin=margin or 0.0,
+        keep=keep,
         compare=[other if other == LEAST_NORM else read_objective(model, "--compare", other, rows) for other in compare or []],
     )
     if inject:

@@ -18,6 +18,7 @@ from holdfast.cli.options import (
     FailureOption,
     HoldOption,
     JsonOption,
+    KeepOption,
     TipOption,
     check_unit_of_places,
     read_arm,
@@ -66,15 +67,7 @@ def command(
     path: Annotated[
         Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.", show_default=False)
     ] = None,
-    keep: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--keep",
-            help="upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
-            "May be given again.",
-            show_default=False,
-        ),
-    ] = None,
+    keep: KeepOption = None,
     degrees: Annotated[
         bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
     ] = False,

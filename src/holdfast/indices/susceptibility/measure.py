@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import casadi as ca
@@ -16,6 +16,7 @@ from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
+from holdfast.frameworks.rows import RowFunction
 from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
@@ -202,6 +203,10 @@ class Susceptibility(Labelled, Objective):
         rows, single = as_configurations(self.arm, q)
         g = self._gradient.rows(rows)
         return g[0] if single else g
+
+    def row_function(self) -> RowFunction:
+        """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
+        return replace(super().row_function(), kernels=(self._values, self._gradient))
 
     def jacobian(self, q: ArrayLike) -> Array:
         """Exact derivatives of the joints' measures, ``out[..., i, j] = d f_i / d q_j``, (N, n, n) or (n, n); eq. (4).

@@ -48,6 +48,8 @@ def next_steps(result: Assessment, name: str) -> list[str]:
     if result.optimised is None and result.region.kind != "joints":
         again = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
         steps.append(f"{again}  # what choosing configurations gains")
+    if result.region.kind == "box" and result.index.task.name in ("position", "pose") and not result.distribution.unreached:
+        steps.append(f"hf.certify({name}.claim())  # that every pose of the region is reached, not only a sample")
     return [*steps, f'{name}.report("report.html")']
 
 
@@ -74,6 +76,7 @@ def numbers(result: Assessment, thresholds: Thresholds, rates: Mapping[str | int
             "better": result.index.better,
             "bound": result.index.bound,
             "bound_note": result.index.bound_note,
+            "best_known": result.index.best_known,
             "task": result.index.task.name,
             "characteristic_length_m": result.index.task.length,
             "region": result.region.to_dict(),

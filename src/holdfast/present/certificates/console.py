@@ -11,6 +11,7 @@ from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
+from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier import per_cent
 from holdfast.present import results
 from holdfast.present.certificates import slices
@@ -43,6 +44,16 @@ def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
     written = {key: {"value": float(part), "fraction": _text(part)} for key, part in shares.items()}
     said = {"claim": claim, **written, **counts, **witness, "seconds": found.seconds}
     return said | ({"parts": {name: to_dict(part) for name, part in parts.items()}} if parts else {})
+
+
+def state(now: SearchState) -> str:
+    """One line of how far a search has come: shares are never rounded up to the whole or down to nothing."""
+    shares = [f"proved {per_cent(Fraction(min(now.proved, 1.0)))}", "refuted 0 %"]
+    rest = [
+        f"{name} {per_cent(Fraction(max(part, 0.0)), up=True)}"
+        for name, part in (("undecided", now.undecided), ("open", now.open))
+    ]
+    return f"{', '.join([*shares, *rest])}; {now.nodes:,} boxes"
 
 
 def _shares(found: Found) -> dict[str, Fraction]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
@@ -13,6 +14,10 @@ from holdfast.words import capitalised, number, percent
 if TYPE_CHECKING:
     from holdfast.endurance.endurance import Endurance
     from holdfast.endurance.injection import Injection
+
+Array = NDArray[np.float64]
+
+_NOTHING = 1e-9  # m/s
 
 
 def to_dict(e: Endurance) -> dict[str, Any]:
@@ -25,6 +30,7 @@ def to_dict(e: Endurance) -> dict[str, Any]:
         "task": e.task.name,
         "mode": e.mode,
         "kind": e.kind,
+        "keep": [kept.to_dict() for kept in e.keep],
         "rates": dict(zip(names, e.rates.each, strict=True)),
         "rates_per_second": e.rates.per_second,
         "survival": e.survival,
@@ -45,6 +51,8 @@ def to_dict(e: Endurance) -> dict[str, Any]:
             "most_angular_rad_per_s": e.jump.most_angular,
             "mean_linear_m_per_s": e.jump.mean_linear,
             "mean_angular_rad_per_s": e.jump.mean_angular,
+            "linear_m_per_s": e.jump.linear,
+            "angular_rad_per_s": e.jump.angular,
         },
         "beside": {other.name: other.survival for other in e.beside},
         "injected": None if e.injected is None else _injected(e.injected),
@@ -77,7 +85,7 @@ def key_table(e: Endurance) -> Rows:
         rows.append(["no motion survives more than", percent(e.bound)])
     rows += [
         ["at the worst instant", f"{percent(least)}, at {number(when)} s"],
-        ["every lock is survived from", f"{number(e.safe_from)} s on"],
+        [f"every lock {_is(e)} survived from", f"{number(e.safe_from)} s on"],
         ["largest loss of tool velocity at a lock", f"{number(e.jump.most_linear)} m/s"],
     ]
     return Rows(["", ""], rows)
@@ -92,8 +100,10 @@ def next_steps(e: Endurance, name: str) -> list[str]:
 def tables(e: Endurance) -> list[Rows]:
     """Survival of each joint."""
     share = e.rates.each / e.rates.total
-    rows = [[name, percent(s), percent(x)] for (name, x), s in zip(e.by_joint.items(), share, strict=True)]
-    found = [Rows(["joint", "part of all locks", "of its locks survived"], rows, "Survival by joint")]
+    lost = zip(e.by_joint.items(), share, e.jump.linear.T, strict=True)
+    rows = [[name, percent(s), percent(x), _largest(v, e.time)] for (name, x), s, v in lost]
+    header = ["joint", "part of all locks", "of its locks survived", "largest loss of tool velocity"]
+    found = [Rows(header, rows, "Survival by joint")]
     if e.beside:
         mine = "most locks survived" if e.found is not None else "this motion"
         others = [[other.name, percent(other.survival), percent(other.off)] for other in e.beside]
@@ -116,7 +126,7 @@ def story(e: Endurance) -> Story:
     if e.bound is not None:
         facts.append((percent(e.bound), "is the most that any motion could survive, up to the grid"))
     if e.safe_from < e.time[-1] and e.safe_from > 0:
-        facts.append((f"{number(e.safe_from)} s", "from then on every lock is survived"))
+        facts.append((f"{number(e.safe_from)} s", f"from then on every lock {_is(e)} survived"))
     about = f"{e.arm.title}, task {e.task.name}, {e.path.describe()}"
     return Story(
         "Which locks a motion survives",
@@ -129,20 +139,42 @@ def story(e: Endurance) -> Story:
             "survival": ("Survival over time", "Probability that the rest of the path can be followed if a joint locks now."),
             "map": (
                 "Which locks are survivable where",
-                "All configurations found of every pose, by the joint that self-motion moves most; of several with the same "
+                "Configurations found of every pose, by the joint that self-motion moves most; of several with the same "
                 "value the best. Line: the motion. First the part of all locks that is survivable there, then for each joint "
-                "whether its lock is (yellow).",
+                f"whether its lock is (yellow).{_holding(e)}",
+            ),
+            "jump": (
+                "What a lock takes from the tool",
+                "Velocity of the tool point that is lost when a joint stops at once, for each joint.",
             ),
         },
         tables=[key_table(e), *tables(e)],
         method=[
             ("Failure", "one joint locks, at a random time, and stays; later locks are not counted"),
             ("Mode", e.mode),
+            *(("Kept before a lock and after it", str(kept)) for kept in e.keep),
             ("Rates", "per second" if e.rates.per_second else "relative"),
             ("Poses", f"{len(e.time)}, evenly spaced in time"),
         ],
         arm=e.arm,
     )
+
+
+def _largest(values: Array, time: Array) -> str:
+    """The largest of speeds (T,) and when it is; 0 where it is rounding."""
+    most = float(values.max())
+    return f"{number(most)} m/s, at {number(time[values.argmax()])} s" if most > _NOTHING else "0 m/s"
+
+
+def _is(e: Endurance) -> str:
+    return "may be" if e.kind == "upper bound" else "is"
+
+
+def _holding(e: Endurance) -> str:
+    """What all configurations of the map hold, a sentence."""
+    if e.found is None or not e.found.held:
+        return ""
+    return f" All of them hold {' and '.join(e.found.held)}, as the motion does."
 
 
 def _moving(e: Endurance) -> list[tuple[str, list[Any]]]:

@@ -24,15 +24,20 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _BINS = 64
+_FINER = 8  # places in a piece between two nodes
 
 
 def figures(e: Endurance) -> dict[str, Figure]:
-    """Survival over time, beside that of other motions, and of a motion that was looked for the map of all configurations."""
+    """Survival over time, beside that of other motions, the map of all configurations if it was looked for, velocity jumps."""
     level = None if e.bound is None else (100 * e.bound, "no motion survives more, in the mean")
     mine = "most locks survived" if e.found is not None else "this motion"
     lines = [(mine, 100 * e.curve()), *((other.name, 100 * other.curve) for other in e.beside)]
-    drawn = {"survival": lines_figure(e.time, lines, level, "if a joint locks now, survived, %")}
-    return drawn if e.found is None else {**drawn, "map": _map(e, e.found)}
+    drawn = {"survival": lines_figure(e.time, lines, "if a joint locks now, survived, %", level=level, percents=True)}
+    if e.found is not None:
+        drawn["map"] = _map(e, e.found)
+    jumps = list(zip(e.arm.joint_names, e.jump.linear.T, strict=True))
+    drawn["jump"] = lines_figure(e.time, jumps, "tool velocity lost, m/s", percents=False)
+    return drawn
 
 
 def _map(e: Endurance, found: Found) -> Figure:
@@ -49,8 +54,9 @@ def _map(e: Endurance, found: Found) -> Figure:
     edges = np.linspace(low, high + 1e-9 * (high - low + 1), _BINS + 1)
     share = e.rates.each / e.rates.total
     values = np.full((e.arm.n + 1, len(e.time), _BINS), np.nan)
-    for t, (nodes, survives) in enumerate(zip(found.nodes, found.survives, strict=True)):
-        bins = np.clip(np.searchsorted(edges, place(nodes[:, most]), side="right") - 1, 0, _BINS - 1)
+    for t in range(len(e.time)):
+        where, survives = _along(found, t, most)
+        bins = np.clip(np.searchsorted(edges, place(where), side="right") - 1, 0, _BINS - 1)
         best = np.argsort(survives @ share, kind="stable")  # what is written last stays
         values[0, t, bins[best]] = 100 * (survives @ share)[best]
         values[1:, t, bins[best]] = 100.0 * survives[best].T
@@ -64,8 +70,19 @@ def _map(e: Endurance, found: Found) -> Figure:
     return strip_figure(e.time, edges, panels, way, scale=Scale(0.0, 100.0), label=label, ylabel=ylabel)
 
 
+def _along(found: Found, t: int, joint: int) -> tuple[Array, Array]:
+    """Values (N,) of a joint along the curves of a pose, finer than its nodes, with the verdicts (N, n) of the nearer node."""
+    values, beside = found.nodes[t][:, joint], np.diff(found.curve[t]) == 0
+    k = np.flatnonzero(beside)
+    share = np.linspace(0, 1, _FINER, endpoint=False)[:, None]
+    between = values[k] + share * (values[k + 1] - values[k])
+    nearer = np.where(share < 0.5, k, k + 1)
+    order = np.concatenate([np.arange(len(values)), nearer.ravel()])
+    return np.concatenate([values, between.ravel()]), found.survives[t][order]
+
+
 def save(e: Endurance, folder: Path, command: str = "") -> list[Path]:
-    """endurance.json, motion.csv, survival.png, map.png of a motion that was looked for, and report.html."""
+    """endurance.json, motion.csv, survival.png, jump.png, map.png of a motion that was looked for, and report.html."""
     (file,) = put(folder, {"endurance.json": json.dumps(e.to_dict(), indent=2) + "\n"})
     drawn = figures(e)
     pictures = [save_png(figure, folder / f"{name}.png", 150) for name, figure in drawn.items()]

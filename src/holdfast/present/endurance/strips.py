@@ -78,17 +78,22 @@ def _draw(axes: Axes, time: Array, edges: Array, panel: Strips, way: Array, scal
     axes.set_xlim(time[0], time[-1])
 
 
-def lines_figure(time: Array, lines: Sequence[tuple[str, Array]], level: tuple[float, str] | None, ylabel: str) -> Figure:
-    """Lines over one time (T,), s, the first one strong, with their names below."""
+def lines_figure(
+    time: Array, lines: Sequence[tuple[str, Array]], ylabel: str, *, level: tuple[float, str] | None = None, percents: bool
+) -> Figure:
+    """Lines over one time (T,), s, with their names below: percentages that jump, the first one strong, or what is smooth."""
     with style():
         figure = Figure(figsize=(WIDTH, 3.6))
         axes = figure.subplots()
         for k, (name, values) in enumerate(lines):
-            wide, above = (1.2, 2.0) if k else (2.2, 2.5)
-            axes.step(time, values, where="mid", color=COLORS[k], label=plain(name), linewidth=wide, zorder=above)
+            wide, above = (1.2, 2.0) if k or not percents else (2.2, 2.5)
+            look = {"color": COLORS[k % len(COLORS)], "linestyle": ("-", "--", ":")[k // len(COLORS) % 3]}
+            steps = "steps-mid" if percents else "default"
+            axes.plot(time, values, drawstyle=steps, label=plain(name), linewidth=wide, zorder=above, **look)
         if level is not None:
             axes.axhline(level[0], color=SOFT, linewidth=1.2, linestyle=(0, (1.2, 1.6)), label=plain(level[1]))
-        axes.set(xlabel="time, s", ylabel=ylabel, ylim=(-2, 102))
+        axes.set(xlabel="time, s", ylabel=ylabel)
+        axes.set_ylim(*((-2, 102) if percents else (0, None)))
         axes.set_xlim(0, float(time[-1]))
         legend_below(figure, axes, 2)
         return finished(figure)

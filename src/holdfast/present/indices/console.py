@@ -34,6 +34,8 @@ def index_values(index: Index, q: Array) -> dict[str, Any]:
         "better": index.better,
         "bound": index.bound,
         "bound_note": index.bound_note,
+        "best_known": index.best_known,
+        "attained": index.attained,
         "source": index.source,
         "q": dict(zip(names, q.tolist(), strict=True)),
         "value": result.value,
@@ -71,8 +73,9 @@ def show_index(index: Index, q: Array, out: Console) -> None:
     r, unit = index_values(index, q), _unit(index)
     verdict = "[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]"
     if not r["singular"]:
-        note = f" ({index.bound_note})" if index.bound_note else ""
-        bound = f"; at most {number(index.bound)} for any configuration{note}" if index.bound is not None else ""
+        bound = f"; at most {number(index.bound)} for any configuration" if index.bound is not None else ""
+        if index.ceiling is not None:
+            bound = f"; {index.ceiling.compared(r['value'])}"
         verdict = f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}"
     values = zip(r["by_failure"], alike(r["by_failure"].values(), digits=6), strict=True)
     rows = [(name, text, "[bold]worst[/]" if name == r["worst"] else "") for name, text in values]

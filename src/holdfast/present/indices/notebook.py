@@ -22,6 +22,7 @@ def key_table(objective: Objective) -> Rows:
     rows = [["better", objective.better], ["unit", "none" if objective.unit == "1" else objective.unit]]
     if isinstance(objective, Index):
         bound = "not known" if objective.bound is None else number(objective.bound)
+        bound += f" ({objective.bound_note})" if objective.bound_note else ""
         rows += [["no configuration can exceed", bound], ["failures considered", f"{len(objective.failures)}"]]
     if isinstance(objective, (Index, Susceptibility)):
         rows.append(["source", objective.source or "not given"])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,16 +12,17 @@ from holdfast.enclosure import Configurations, Finding, all_configurations
 from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
-from holdfast.recovery.proofs.within_objects import WithinObjects
+from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Space
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
+BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
 _SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
-_TOLERANCE = 1e-6  # m and rad: what the search takes as met
+Tolerance = tuple[float, float]
+EXACT: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
 
 
 def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str | None:
@@ -49,22 +48,41 @@ def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str |
 def every_clear(
     degraded: Degraded, task: Task, pose: Array, space: Space, clearance: Clearance | None
 ) -> tuple[Configurations | None, str | None]:
-    """Every configuration of a pose (4, 4) that is not within an object, and that none is clear, if these can be told.
+    """Every configuration of a pose (4, 4) that is not certainly blocked, and that none is clear, if these can be told.
 
     In half of the time that is left.
     """
-    kept = space.clearance
-    blocked = None if kept is None or kept.obstacles is None else WithinObjects(kept, space.margin)
+    blocked = blocked_in(space)
     found = listed(degraded, task, pose, space.seconds_left / 2, blocked)
-    return found, proved_by(found, clearance, "" if blocked is None else blocked.objects)
+    return found, proved_by(found, clearance, "" if blocked is None else blocked.what)
+
+
+def nothing_within(degraded: Degraded, task: Task, pose: Array, space: Space, tolerance: Tolerance) -> bool:
+    """Whether it is proved that nothing clear misses a pose (4, 4) by no more than a tolerance, m and rad.
+
+    In half of the time that is left.
+    """
+    found = listed(degraded, task, pose, space.seconds_left / 2, blocked_in(space), tolerance)
+    return found is not None and found.none
+
+
+def blocked_in(space: Space) -> BlockedBoxes | None:
+    """Which boxes are blocked; None without a clearance."""
+    kept = space.clearance
+    return None if kept is None else BlockedBoxes(kept, space.margin, (space.low, space.high))
 
 
 def listed(
-    degraded: Degraded, task: Task, pose: Array, seconds: float, blocked: WithinObjects | None = None
+    degraded: Degraded,
+    task: Task,
+    pose: Array,
+    seconds: float,
+    blocked: BlockedBoxes | None = None,
+    tolerance: Tolerance = EXACT,
 ) -> Configurations | None:
     """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.
 
-    Those in which the arm certainly is within an object are left out.
+    Those in which the arm certainly touches something are left out.
 
     Args:
         degraded: What is in force, every lock with its value.
@@ -72,6 +90,7 @@ def listed(
         pose: (4, 4) of the end effector, m.
         seconds: At most.
         blocked: Which boxes are; None without a cell.
+        tolerance: m and rad by which the pose may be missed.
     """
     limits = degraded.lo, degraded.hi
     known = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)  # or it turns once
@@ -84,8 +103,8 @@ def listed(
             pose,
             task,
             limits=limits,
-            tolerance=_TOLERANCE,
-            most_boxes=_BOXES,
+            tolerance=tolerance,
+            most_boxes=BOXES,
             first=False,
             blocked=blocked,
             **allowed,
@@ -94,19 +113,19 @@ def listed(
         return None
 
 
-def proved_by(found: Configurations | None, clearance: Clearance | None, objects: str = "") -> str | None:
+def proved_by(found: Configurations | None, clearance: Clearance | None, what: str = "") -> str | None:
     """A sentence that proves that no clear configuration exists: there is none, or each of them touches something.
 
     Args:
         found: All there are.
         clearance: By which they are judged.
-        objects: Names of those within which boxes were left out.
+        what: Names of what blocked the boxes that were left out.
     """
     if found is None or found.finding not in (Finding.NONE, Finding.ALL):
         return None
     if not len(found.q) and found.blocked:
         return (
-            f"every configuration within the limits that meets it is within an object ({objects}), by {found.boxes:,} boxes of "
+            f"every configuration within the limits that meets it touches something ({what}), by {found.boxes:,} boxes of "
             "joints, up to floating point"
         )
     if not len(found.q):
@@ -119,17 +138,6 @@ def proved_by(found: Configurations | None, clearance: Clearance | None, objects
     except HoldfastError:  # no library for exact signs is installed
         return None
     return f"each of its {len(found.q)} configurations touches something, by {found.boxes:,} boxes of joints and the exact sign"
-
-
-def telling_first(count: int) -> Iterator[int]:
-    """0 to count - 1, those first that most often tell: the last, the first, the middle, quarters, eighths, ..."""
-    seen, parts = set[int](), 1
-    while len(seen) < count:
-        for k in [count - 1, 0] if parts == 1 else [round(i * (count - 1) / parts) for i in range(1, parts, 2)]:
-            if k not in seen:
-                seen.add(k)
-                yield k
-        parts *= 2
 
 
 # ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------

@@ -50,19 +50,19 @@ def blocks(f: Facts) -> list[Block]:
             )
         )
     if index.bound is not None and d.reached:
-        parts = []
+        parts, goal = [], index.best_known or index.bound
+        of = "it" if goal == index.bound else f"the best known {goal:.4f}"
         for name, which, _ in f.samples:
             if not which.reached:
                 continue
             median, best = (0.0 if f.nothing else x for x in (float(which.quantile(0.5)), which.highest))
             parts.append(
                 f"{name + ', ' if len(f.samples) > 1 else ''}the "
-                f"median of the {f.reached} is {percent(median / index.bound)} of it "
-                f"(gap {number(index.bound - median)}), the best one {percent(best / index.bound)}"
+                f"median of the {f.reached} is {percent(median / goal)} of {of} "
+                f"(gap {number(goal - median)}), the best one {percent(best / goal)}"
             )
         what = "Upper bound" if index.bound_note else "Largest possible value"
-        noted = f"{index.bound:.4f}" + (f" ({index.bound_note})" if index.bound_note else "")
-        facts.append((what, "; ".join([noted, *parts])))
+        facts.append((what, "; ".join([f"{index.bound:.4f}, which no configuration of any arm can beat", *parts])))
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     if d.reached:
         blocks.append(_quantiles(f))

@@ -1,7 +1,7 @@
 """Program -> machine code by LLVM, for the processor at hand.
 
 Level 0 compiles some 4 times as fast as level 1 and its code takes some 1.8 times as long; both give the same bits
-(:mod:`holdfast.kernels.llvm_ir`).
+(:mod:`holdfast.kernels.llvm.translation`).
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from functools import lru_cache
 from typing import Any
 
 from holdfast.errors import KernelError
-from holdfast.kernels.llvm_arithmetic import Machine
-from holdfast.kernels.llvm_ir import LIBRARY, NAME, emit
+from holdfast.kernels.llvm.arithmetic import Machine
+from holdfast.kernels.llvm.translation import NAME, emit
 from holdfast.kernels.program import Program
 
 LEVELS = (0, 1)
@@ -55,9 +55,6 @@ def _llvm() -> Any:
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    library = ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None)
-    for name in LIBRARY:
-        binding.add_symbol(name, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
     return binding
 
 
@@ -81,14 +78,17 @@ def _target(level: int) -> Any:
 
 
 def compile_program(program: Program, level: int, machine: Machine | None = None) -> bytes:
-    """Object code of the function that :func:`holdfast.kernels.llvm_ir.emit` writes.
+    """Object code of the function that :func:`holdfast.kernels.llvm.translation.emit` writes.
 
     Raises:
         KernelError: An operation without translation.
     """
-    llvm = _llvm()
-    module = llvm.parse_assembly(emit(program, machine or host().machine))
-    return bytes(_target(level).emit_object(module))
+    return object_code(emit(program, machine or host().machine), level)
+
+
+def object_code(text: str, level: int) -> bytes:
+    """Object code of a module in LLVM's language."""
+    return bytes(_target(level).emit_object(_llvm().parse_assembly(text)))
 
 
 class Code:

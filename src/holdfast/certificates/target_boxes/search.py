@@ -9,7 +9,7 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.pool import Pool, stepped
+from holdfast.certificates.target_boxes.pool import Pool, stepped
 from holdfast.certificates.taylor import UNIT, Form, Reach
 from holdfast.certificates.tree import Cells, Tree
 
@@ -35,7 +35,7 @@ class Search:
     Args:
         reach: What must be reached.
         root: (A, 2) targets along each axis, m, then the locked angle, rad.
-        halvings: Of each axis, at most.
+        halvings: Of each axis, at most; (A,) of one of them each.
         seed: Of all random draws.
         until: When the pool must be there (``monotonic``).
 
@@ -43,15 +43,15 @@ class Search:
         tree: What is found.
         pool: Where it began.
         nodes: Cells that were looked at.
-        open: Share of the root that is still to be looked at.
+        open, proved: Shares of the root: still to be looked at, and proved.
     """
 
-    def __init__(self, reach: Reach, root: Array, halvings: int, seed: int, until: float = np.inf) -> None:
-        self.reach, self.root, self.halvings = reach, root, halvings
+    def __init__(self, reach: Reach, root: Array, halvings: int | Index, seed: int | list[int], until: float = np.inf) -> None:
+        self.reach, self.root, self.halvings = reach, root, np.broadcast_to(halvings, len(root))
         self.rng, self.tree, self.nodes = np.random.default_rng(seed), Tree(), 0
         self.width = root[:, 1] - root[:, 0]
         self.pool = Pool(reach, root, self.rng, until)
-        self.open = 0.0
+        self.open = self.proved = 0.0
         self._open: list[tuple[float, int, Index, Index, Array, int]] = []
         start = self.pool.q[:1] if len(self.pool.q) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
         whole = np.zeros((1, len(root)), dtype=np.int64)
@@ -105,6 +105,7 @@ class Search:
         self._along_self_motions(q, found, part, smallest, centre, half)
         places = np.round(q / UNIT).astype(np.int64)
         places[:, ~self.reach.free] = 0
+        self.proved += cells.take(np.flatnonzero(found)).share
         for k in np.flatnonzero(found):
             self.tree.prove(int(cells.name[k]), places[k])
         self.pool.add(centre[found], q[found])
@@ -118,7 +119,7 @@ class Search:
         # Nor in small cells after nothing was proved of as many around each other as there are axes.
         barren = np.where(part > 0, 0, cells.barren + 1)
         axes = int((self.width > 0).sum())
-        lost |= (barren >= axes) & (cells.depth.sum(axis=1) >= _SMALL * axes * self.halvings)
+        lost |= (barren >= axes) & (cells.depth.sum(axis=1) >= _SMALL * self.halvings[self.width > 0].sum())
         some = np.flatnonzero(~found & ~smallest & ~lost)
         rest = cells.take(some)
         rest.q, rest.barren = q[some], barren[some]

@@ -39,6 +39,7 @@ class Pool:
     Attributes:
         q: (N, n) rad or m, those of the first targets.
         cells: That the whole would take, estimated; infinite where nobody knows.
+        halved: (A,) how often each axis is halved for them, in the mean.
     """
 
     def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
@@ -48,7 +49,7 @@ class Pool:
         self._all, self._count, self._until = np.empty((0, reach.n)), 0, until
         self._added: list[tuple[Array, Array]] = []
         self.q, self._at = self._grown()
-        self.cells = self._estimate()
+        self.cells, self.halved = self._estimate()
 
     def enlarge(self) -> None:
         """As large as the claim asks; an estimate does without."""
@@ -107,16 +108,27 @@ class Pool:
         away, _ = self._nearest(centre, 1)
         return np.asarray((away <= (half / self._unit).max(axis=1, keepdims=True)).any(axis=1))
 
-    def _estimate(self) -> float:
-        """The median over some of these of 2 to the halvings until one proves its cell."""
+    def cut(self, count: int, most: int) -> tuple[int, ...]:
+        """Axes along which to halve the root so often, each not more than ``most`` times: those that are halved anyway."""
+        left, axes = self.halved.copy(), list[int]()
+        for _ in range(count):
+            axis = int(np.argmax(left))
+            if left[axis] > 0 and axes.count(axis) < most:
+                axes.append(axis)
+            left[axis] -= 1
+        return tuple(axes)
+
+    def _estimate(self) -> tuple[float, Array]:
+        """The median over some of these of 2 to the halvings until one proves its cell; the halvings of each axis."""
         if not len(self.q):
-            return float("inf")
+            return float("inf"), np.zeros(len(self._root))
         some = self._rng.permutation(len(self.q))[:_ASKED]
         form, half = (
             Form.at(self._reach, self.q[some], self._at[some, : self._reach.axes]),
             np.tile(self._width / 2, (len(some), 1)),
         )
         halvings, may = np.zeros(len(some)), np.broadcast_to(self._width > 0, half.shape)
+        first = half.copy()
         for _ in range(_ENOUGH):
             left = np.flatnonzero(~form.proved(half)[0])
             if not left.size:
@@ -124,4 +136,5 @@ class Pool:
             halvings[left] += 1
             half[left, form.take(left).worst_axis(half[left], may[left])] /= 2
         some_do = halvings[halvings < _ENOUGH]  # a configuration at a limit proves nothing, however small the cell
-        return float(2 ** np.median(some_do)) if some_do.size else float("inf")
+        cells = float(2 ** np.median(some_do)) if some_do.size else float("inf")
+        return cells, np.log2(np.divide(first, half, out=np.ones_like(half), where=half > 0)).mean(axis=0)

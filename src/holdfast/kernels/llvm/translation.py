@@ -2,7 +2,7 @@
 
 The same graph gives the same bits on every level of optimisation and for every number of lanes: products are contracted with
 sums here, by a rule of our own, and nothing is left to the compiler that could change a rounding. What differs between
-machines is only whether they have fused multiply-add, and the last digit of the functions of their C library.
+machines is only whether they have fused multiply-add.
 
 Sources: LLVM language reference for the instructions; the contraction is what C calls ``FP_CONTRACT`` (C17, 6.5).
 """
@@ -14,28 +14,11 @@ from collections.abc import Callable
 import casadi as ca
 
 from holdfast.errors import KernelError
-from holdfast.kernels.llvm_arithmetic import Arithmetic, Machine, sincos
+from holdfast.kernels.llvm.arithmetic import Arithmetic, Machine, sincos
+from holdfast.kernels.llvm.functions import FUNCTIONS
 from holdfast.kernels.program import OP_NAMES, Program
 
 NAME = "rows"  # of the function
-
-_FUNCTIONS = {  # of the C library, called lane by lane
-    ca.OP_EXP: "exp",
-    ca.OP_LOG: "log",
-    ca.OP_POW: "pow",
-    ca.OP_CONSTPOW: "pow",
-    ca.OP_ASIN: "asin",
-    ca.OP_ACOS: "acos",
-    ca.OP_ATAN: "atan",
-    ca.OP_ATAN2: "atan2",
-    ca.OP_SINH: "sinh",
-    ca.OP_COSH: "cosh",
-    ca.OP_TANH: "tanh",
-    ca.OP_ERF: "erf",
-    ca.OP_LOG1P: "log1p",
-    ca.OP_EXPM1: "expm1",
-}
-LIBRARY = sorted(set(_FUNCTIONS.values()))
 
 # A comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
 _COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
@@ -49,10 +32,10 @@ def emit(program: Program, machine: Machine) -> str:
     Raises:
         KernelError: The program uses an operation that has no translation; the message names it.
     """
-    return _Emitter(program, machine).text()
+    return Emitter(program, machine).text()
 
 
-class _Emitter(Arithmetic):
+class Emitter(Arithmetic):
     """One program on its way."""
 
     def __init__(self, program: Program, machine: Machine) -> None:
@@ -63,16 +46,15 @@ class _Emitter(Arithmetic):
         self._nots: dict[str, str] = {}  # mask -> the mask it negates
         self._choices: dict[str, tuple[str, str]] = {}  # "condition ? a : 0" -> mask, a
         self._products: dict[str, tuple[str, str]] = {}  # products that wait for the sum they go into
-        self._library: set[str] = set()
 
     # ---- frame -------------------------------------------------------------------------------------------------
 
     def text(self) -> str:
-        guard = self._guard()
-        self._body(guard)
+        """The whole function."""
+        guard = self.guard()
+        self.body(guard)
         lanes = self.machine.lanes
-        functions = [line for name in sorted(self._library) for line in _by_lanes(name, lanes)]
-        head, body = "\n".join([*sorted(self.declared), *functions]), "\n".join(self.lines)
+        head, body = "\n".join(sorted(self.declared)), "\n".join(self.lines)
         return f"""{head}
 define void @{NAME}(ptr noalias %in, ptr noalias %out, i64 %stride, i64 %n) nounwind {{
 entry:
@@ -100,7 +82,7 @@ ret void
     def _store(self, k: int, value: str) -> None:
         self.lines.append(f"store {self.type} {value}, ptr {self._place('%out', k)}, align 8")
 
-    def _guard(self) -> str:
+    def guard(self) -> str:
         """Zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
         total = zero = self.number(0.0)
         for k in range(self.program.n_in):
@@ -109,7 +91,8 @@ ret void
 
     # ---- instructions ------------------------------------------------------------------------------------------
 
-    def _body(self, guard: str) -> None:
+    def body(self, guard: str) -> None:
+        """All instructions; ``guard`` is added to each output."""
         work: dict[int, str] = {}
         alone = _used_once_in_a_sum(self.program)
         divisors = self.program.shared_divisors()
@@ -183,9 +166,9 @@ ret void
 
     def _other(self, k: int, op: int, a: str, b: str) -> str:
         if op in _COMPARISONS:
-            return self._truth(self.compare(_COMPARISONS[op], a, b))
-        if op in _FUNCTIONS:
-            return self._call(_FUNCTIONS[op], [a, b] if _FUNCTIONS[op] in ("pow", "atan2") else [a])
+            return self.truth(self.compare(_COMPARISONS[op], a, b))
+        if op in FUNCTIONS:
+            return FUNCTIONS[op](self, a, b)
         if op in (ca.OP_SIN, ca.OP_COS, ca.OP_TAN):
             if a not in self._angles:
                 self._angles[a] = sincos(self, a)
@@ -199,14 +182,9 @@ ret void
             )
         return one(self, a, b)
 
-    def _call(self, name: str, arguments: list[str]) -> str:
-        self._library.add(name)
-        given = ", ".join(f"{self.type} {a}" for a in arguments)
-        return self._new(f"call {self.type} @{name}_lanes({given})")
-
     # ---- conditions --------------------------------------------------------------------------------------------
 
-    def _truth(self, mask: str) -> str:
+    def truth(self, mask: str) -> str:
         """1 where a mask is true, else 0."""
         value = self.select(mask, self.number(1.0), self.number(0.0))
         self._masks[value] = mask
@@ -218,19 +196,15 @@ ret void
             self._masks[a] = self.compare("une", a, self.number(0.0))
         return self._masks[a]
 
-    def logic(self, operation: str, a: str, b: str) -> str:
-        """``and`` or ``or`` of two conditions, as 0 or 1."""
-        return self._truth(self._new(f"{operation} {self.mask} {self.condition(a)}, {self.condition(b)}"))
-
     def no(self, a: str) -> str:
         """1 where a is 0, else 0."""
         if a in self._masks:
-            mask = self._new(f"xor {self.mask} {self._masks[a]}, splat (i1 true)")
+            mask = self.opposite(self._masks[a])
             self._nots[mask] = self._masks[a]
         else:
             mask = self.compare("oeq", a, self.number(0.0))
             self._nots[mask] = self.condition(a)
-        return self._truth(mask)
+        return self.truth(mask)
 
     def or_zero(self, c: str, a: str) -> str:
         """``c ? a : 0``."""
@@ -241,7 +215,7 @@ ret void
 
 
 # What takes one instruction or few. CasADi differentiates |x| into sign(x).
-_TABLE: dict[int, Callable[[_Emitter, str, str], str]] = {
+_TABLE: dict[int, Callable[[Emitter, str, str], str]] = {
     ca.OP_ASSIGN: lambda e, a, b: a,
     ca.OP_DIV: lambda e, a, b: e.binary("fdiv", a, b),
     ca.OP_NEG: lambda e, a, b: e.negative(a),
@@ -250,8 +224,8 @@ _TABLE: dict[int, Callable[[_Emitter, str, str], str]] = {
     ca.OP_TWICE: lambda e, a, b: e.add(a, a),
     ca.OP_INV: lambda e, a, b: e.binary("fdiv", e.number(1.0), a),
     ca.OP_NOT: lambda e, a, b: e.no(a),
-    ca.OP_AND: lambda e, a, b: e.logic("and", a, b),
-    ca.OP_OR: lambda e, a, b: e.logic("or", a, b),
+    ca.OP_AND: lambda e, a, b: e.truth(e.both(e.condition(a), e.condition(b))),
+    ca.OP_OR: lambda e, a, b: e.truth(e.either(e.condition(a), e.condition(b))),
     ca.OP_IF_ELSE_ZERO: lambda e, a, b: e.or_zero(a, b),
     ca.OP_SIGN: lambda e, a, b: e.select(
         e.compare("ogt", a, e.number(0.0)),
@@ -265,29 +239,10 @@ _TABLE: dict[int, Callable[[_Emitter, str, str], str]] = {
 
 OPERATIONS = frozenset(
     {ca.OP_CONST, ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_SQ, ca.OP_SIN, ca.OP_COS, ca.OP_TAN}
-    | _FUNCTIONS.keys()
+    | FUNCTIONS.keys()
     | _COMPARISONS.keys()
     | _TABLE.keys()
 )
-
-
-def _by_lanes(name: str, lanes: int) -> list[str]:
-    """A function of the C library for each lane: no lane can change what another one gets."""
-    two = name in ("pow", "atan2")
-    t = f"<{lanes} x double>"
-    lines = [f"declare double @{name}(double{', double' if two else ''})"]
-    lines.append(f"define private {t} @{name}_lanes({t} %a{f', {t} %b' if two else ''}) nounwind noinline {{")
-    last = "poison"
-    for k in range(lanes):
-        lines.append(f"%a{k} = extractelement {t} %a, i32 {k}")
-        given = f"double %a{k}"
-        if two:
-            lines.append(f"%b{k} = extractelement {t} %b, i32 {k}")
-            given += f", double %b{k}"
-        lines.append(f"%y{k} = call double @{name}({given})")
-        lines.append(f"%r{k} = insertelement {t} {last}, double %y{k}, i32 {k}")
-        last = f"%r{k}"
-    return [*lines, f"ret {t} {last}", "}"]
 
 
 def _used_once_in_a_sum(program: Program) -> set[int]:

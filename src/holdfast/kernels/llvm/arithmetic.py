@@ -32,7 +32,7 @@ _COSINE = (
     -1.38888888888741095749e-03,
     4.16666666666666019037e-02,
 )
-_ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and taking it away rounds to a whole number
+ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and taking it away rounds to a whole number
 _LARGEST = 1e15
 
 
@@ -57,6 +57,7 @@ class Arithmetic:
         self.lines: list[str] = []
         self.type = f"<{machine.lanes} x double>"
         self.mask = f"<{machine.lanes} x i1>"
+        self.whole_type = f"<{machine.lanes} x i64>"
         self.declared: set[str] = set()  # functions that are not defined here
 
     def _new(self, text: str) -> str:
@@ -95,7 +96,7 @@ class Arithmetic:
         return self.intrinsic("fma", a, b, c)
 
     def intrinsic(self, name: str, *arguments: str) -> str:
-        """An LLVM intrinsic that every machine rounds alike: ``fma``, ``sqrt``, ``fabs``."""
+        """An LLVM intrinsic that every machine rounds alike: ``fma``, ``sqrt``, ``fabs``, ``copysign``."""
         name = f"@llvm.{name}.v{self.machine.lanes}f64"
         self.declared.add(f"declare {self.type} {name}({', '.join([self.type] * len(arguments))})")
         return self._new(f"call {self.type} {name}({', '.join(f'{self.type} {a}' for a in arguments)})")
@@ -112,6 +113,34 @@ class Arithmetic:
         """``mask ? a : b``."""
         return self._new(f"select {self.mask} {mask}, {self.type} {a}, {self.type} {b}")
 
+    def both(self, a: str, b: str) -> str:
+        """The mask where both are true."""
+        return self._new(f"and {self.mask} {a}, {b}")
+
+    def either(self, a: str, b: str) -> str:
+        """The mask where one is true, or both."""
+        return self._new(f"or {self.mask} {a}, {b}")
+
+    def opposite(self, a: str) -> str:
+        """The mask where this one is false."""
+        return self._new(f"xor {self.mask} {a}, splat (i1 true)")
+
+    def bits(self, a: str) -> str:
+        """The 64 bits of a value."""
+        return self._new(f"bitcast {self.type} {a} to {self.whole_type}")
+
+    def of_bits(self, a: str) -> str:
+        """The value of 64 bits."""
+        return self._new(f"bitcast {self.whole_type} {a} to {self.type}")
+
+    def whole(self, operation: str, a: str, constant: int) -> str:
+        """``add``, ``and``, ``or``, ``shl`` or ``lshr`` of 64 bits and a constant."""
+        return self._new(f"{operation} {self.whole_type} {a}, splat (i64 {constant})")
+
+    def negative_sign(self, a: str) -> str:
+        """The mask of what has a minus sign, -0 too."""
+        return self._new(f"icmp slt {self.whole_type} {self.bits(a)}, zeroinitializer")
+
 
 def sincos(e: Arithmetic, x: str) -> tuple[str, str]:
     """Sine and cosine of ``x``, rad; NaN beyond 1e15, where an angle in double precision means nothing.
@@ -121,22 +150,23 @@ def sincos(e: Arithmetic, x: str) -> tuple[str, str]:
         x: Name of the angle.
     """
     x = e.select(e.less(e.mul(x, x), e.number(_LARGEST**2)), x, e.number(float("nan")))
-    shift = e.number(_ROUND)
+    shift = e.number(ROUND)
     turns = e.sub(e.fma(x, e.number(0.31830988618379067154), shift), shift)  # nearest whole number of x / pi
     reduced = x
     for part in _PI:
         reduced = e.fma(turns, e.number(-part), reduced)
     half = e.mul(e.number(0.5), reduced)
     square = e.mul(half, half)
-    sine = e.fma(half, e.mul(square, _polynomial(e, _SINE, square)), half)
-    cosine = e.fma(e.mul(square, square), _polynomial(e, _COSINE, square), e.fma(e.number(-0.5), square, e.number(1.0)))
+    sine = e.fma(half, e.mul(square, polynomial(e, _SINE, square)), half)
+    cosine = e.fma(e.mul(square, square), polynomial(e, _COSINE, square), e.fma(e.number(-0.5), square, e.number(1.0)))
     pairs = e.sub(e.fma(turns, e.number(0.5), shift), shift)
     odd = e.fma(pairs, e.number(-2.0), turns)  # -1, 0 or 1
     sign = e.fma(e.mul(odd, odd), e.number(-2.0), e.number(1.0))
     return e.mul(sign, e.mul(e.add(sine, sine), cosine)), e.mul(sign, e.mul(e.sub(cosine, sine), e.add(cosine, sine)))
 
 
-def _polynomial(e: Arithmetic, coefficients: tuple[float, ...], x: str) -> str:
+def polynomial(e: Arithmetic, coefficients: tuple[float, ...], x: str) -> str:
+    """Its value, highest degree first."""
     value = e.number(coefficients[0])
     for c in coefficients[1:]:
         value = e.fma(value, x, e.number(c))

@@ -1,0 +1,1 @@
+"""Every table of the page on ceilings, made anew."""

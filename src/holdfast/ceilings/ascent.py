@@ -1,0 +1,159 @@
+"""Search for Jacobians whose worst case after k failures is large: an ascent from many starts, then linear programmes.
+
+Only the null space matters, so the search is over orthonormal N (n x p) with p = n - m. A *found* value is no ceiling: it is
+what is known to be attainable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import combinations
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.ceilings.frames import complement
+
+Array = NDArray[np.float64]
+
+_STEPS = 350
+_SHARPEST = 256.0  # exponent of the soft minimum at the end
+_GAIN = 1e-15  # predicted gain of rho^2 below which a point is polished
+_SMALL = 1e-300
+
+
+class Minors:
+    """The squared minors of all k rows of orthonormal N, and their slopes, for batches of N."""
+
+    def __init__(self, n: int, k: int) -> None:
+        self.n, self.k = n, k
+        self.sets = np.array(list(combinations(range(n), k)))
+        places = (self.sets[:, :, None] * n + self.sets[:, None, :]).reshape(-1)
+        self._gather = places
+
+    def grams(self, null: Array) -> Array:
+        """``N_S N_S'``, (..., F, k, k)."""
+        projector = null @ np.swapaxes(null, -1, -2)
+        flat = projector.reshape(*projector.shape[:-2], -1)[..., self._gather]
+        return flat.reshape(*projector.shape[:-2], len(self.sets), self.k, self.k)
+
+    def ascend(self, null: Array, sharpness: float) -> Array:
+        """Gradient by N of the soft minimum of ``log rho_S^2``, tangent to the orthonormal N, (B, n, p)."""
+        grams = self.grams(null)
+        logs = np.log(np.maximum(np.linalg.det(grams), _SMALL))
+        weights = np.exp(-sharpness * (logs - logs.min(axis=-1, keepdims=True)))
+        weights /= weights.sum(axis=-1, keepdims=True)
+        inverse = np.linalg.inv(grams + 1e-14 * np.eye(self.k))
+        # Sums by counting: a matrix product of this size would start the threads of BLAS, which wait for one another.
+        size, batch = self.n * self.n, len(null)
+        places = (np.arange(batch)[:, None] * size + self._gather).ravel()
+        spread = np.bincount(places, (weights[..., None, None] * inverse).ravel(), batch * size)
+        slope = 2 * spread.reshape(batch, self.n, self.n) @ null
+        return slope - null @ (np.swapaxes(null, -1, -2) @ slope)
+
+    def slopes(self, null: Array, complement: Array) -> tuple[Array, Array]:
+        """Squares (F,) of one N, and their slopes (F, m p) along ``N + Q X`` by the entries of X (m, p)."""
+        grams = self.grams(null)
+        squares = np.linalg.det(grams)
+        rows = np.linalg.solve(grams, null[self.sets])  # (F, k, p)
+        along = np.einsum("fkm,fkp->fmp", complement[self.sets], rows)
+        return squares, 2 * squares[:, None] * along.reshape(len(squares), -1)
+
+
+def improved(minors: Minors, starts: Array, deadline: float = np.inf) -> Array:
+    """Ascent of a batch of N (B, n, p): the soft minimum grows sharper from step to step."""
+    null = np.linalg.qr(starts)[0]
+    speed = np.zeros_like(null)
+    for step in range(_STEPS):
+        if monotonic() > deadline:
+            break
+        done = step / _STEPS
+        slope = minors.ascend(null, 2 * (_SHARPEST / 2) ** done)
+        length = np.linalg.norm(slope, axis=(1, 2), keepdims=True)
+        speed = 0.8 * speed + slope / np.maximum(length, 1e-12) * (0.05 * (1 - done) ** 2 + 2e-4)
+        null = np.linalg.qr(null + speed)[0]
+    return null
+
+
+def polished(minors: Minors, null: Array, deadline: float = np.inf) -> tuple[Array, float]:
+    """One N (n, p) brought to a local optimum by linear programmes within a trust region, and its least square."""
+    from scipy.optimize import linprog
+
+    n, p = null.shape
+    radius, best = 0.05, float(np.linalg.det(minors.grams(null)).min())
+    columns = (n - p) * p
+    cost = np.zeros(columns + 1)
+    cost[-1] = -1.0
+    while radius > 1e-14 and monotonic() < deadline:
+        complement = np.linalg.qr(null, mode="complete")[0][:, p:]
+        squares, slopes = minors.slopes(null, complement)
+        # What is best + gain >= squares + slopes . X with |X| <= radius can never be worst is left out.
+        near = squares - radius * abs(slopes).sum(axis=1) <= best + radius * abs(slopes).sum(axis=1).max()
+        # In units of the radius and of the best value, so that the solver's tolerances are relative ones.
+        scale = max(best, 1e-12)
+        rows = np.hstack([-slopes[near] * radius / scale, np.ones((near.sum(), 1))])
+        answer = linprog(
+            cost, A_ub=rows, b_ub=(squares[near] - best) / scale, bounds=[(-1, 1)] * columns + [(None, None)], method="highs-ds"
+        )
+        if answer.fun is None or answer.x is None:
+            radius *= 0.3
+            continue
+        gain = -answer.fun * scale
+        if gain < _GAIN:
+            break
+        moved = np.linalg.qr(null + complement @ (radius * answer.x[:-1]).reshape(n - p, p))[0]
+        value = float(np.linalg.det(minors.grams(moved)).min())
+        if value <= best:
+            radius *= 0.3
+            continue
+        radius *= 2.0 if value - best > 0.7 * gain else 1.0
+        radius = min(radius, 0.5)
+        null, best = moved, value
+    return null, best
+
+
+def best_null_space(
+    n: int,
+    p: int,
+    k: int,
+    *,
+    seed: int,
+    seconds: float,
+    starts: int = 48,
+    polish: int = 10,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Array, float]:
+    """The best N found in the time, and its worst case; batches of starts until it is over.
+
+    Args:
+        n: Joints.
+        p: Redundancy.
+        k: Failures at once.
+        seed: Of the starts.
+        seconds: Time; one start is always polished.
+        starts: Of a batch.
+        polish: How many of them are polished, the best ones.
+        progress: Called with the best value after each polish.
+
+    Returns:
+        N (n, p) and ``min rho_S``.
+    """
+    if k == p and n - p < p:  # the minors of the complement are the same, and smaller
+        other, value = best_null_space(n, n - p, n - p, seed=seed, seconds=seconds, progress=progress)
+        return complement(other), value
+    rng, minors = np.random.default_rng(seed), Minors(n, k)
+    end = monotonic() + seconds
+    found: tuple[Array, float] | None = None
+    while found is None or monotonic() < end:
+        batch = improved(minors, rng.standard_normal((starts, n, p)), end)
+        worst = np.linalg.det(minors.grams(batch)).min(axis=1)
+        for i in np.argsort(-worst)[:polish]:
+            null, square = polished(minors, batch[i], np.inf if found is None else end)
+            if found is None or square > found[1]:
+                found = null, square
+            if progress is not None:
+                progress(float(np.sqrt(found[1])))
+            if monotonic() > end:
+                break
+    return found[0], float(np.sqrt(max(found[1], 0.0)))

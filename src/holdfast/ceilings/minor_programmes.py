@@ -1,0 +1,196 @@
+"""Theorem R4: for each class of pseudoline arrangements a convex programme that bounds the least minor, and its certificate.
+
+Once the signs of the minors are known each relation reads ``x + y = z`` of three positive products. With ``x + y <= z`` instead
+and ``t`` the log of each minor over the least one, ``log(exp(a.t) + exp(b.t)) <= 0`` is convex, and the least minor is at most
+``exp(-f/2)`` with ``f = min log sum exp(2 t)`` over ``t >= 0``: the squares of all minors sum to 1 by Cauchy and Binet. A
+certificate is a dual point: it proves its bound whatever found it. Derived here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.ceilings.pseudolines import Signs, classes, relations
+
+Array = NDArray[np.float64]
+
+_STEPS = 60
+_TIGHT = 1e-11
+_NOTHING = 1e-13  # weights below it are left out of a certificate
+_SLACK = 1e-12  # by which weights are enlarged, so that rounding cannot refute a certificate
+_BITS = 128
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """A dual point of the programme of one class.
+
+    Attributes:
+        n: Lines.
+        signs: (C(n, 3),) of the minors.
+        relation: (R,) weights of the relations, not negative; numbers as :func:`relations` has them.
+        split: (R,) share of the first of the two smaller products.
+        weights: (C(n, 3),) of the minors, not negative.
+    """
+
+    n: int
+    signs: Signs
+    relation: Array
+    split: Array
+    weights: Array
+
+    def bound(self) -> float:
+        """What the least minor of this class cannot exceed, in floating point; infinite if the point proves nothing."""
+        first, second = _exponents(self.n, self.signs)
+        pull = (self.relation * self.split) @ first + (self.relation * (1 - self.split)) @ second
+        total = self.weights.sum()
+        if (2 * self.weights + pull < -1e-9 * total).any() or (self.relation < 0).any():
+            return np.inf
+        mixed = (self.split > 0) & (self.split < 1)
+        entropy = np.zeros(len(self.split))
+        v = self.split[mixed]
+        entropy[mixed] = -v * np.log(v) - (1 - v) * np.log(1 - v)
+        w = self.weights[self.weights > 0]
+        return float(np.exp(-(np.log(total) + (self.relation @ entropy - w @ np.log(w)) / total) / 2))
+
+    def proven(self) -> float:
+        """The same in ball arithmetic: a number that is certainly not less than the least minor of this class.
+
+        Raises:
+            ImportError: python-flint is not installed (``pip install "holdfast[certify]"``).
+            ValueError: The signs are of no oriented matroid, or the point proves nothing.
+        """
+        import flint
+
+        pairs, side = relations(self.n)
+        # With integers alone, apart from the programme: two products of one sign, and the third, alone, of the other.
+        signs = [int(x) for x in self.signs]
+        arb, before = flint.arb, flint.ctx.prec
+        flint.ctx.prec = _BITS
+        try:
+            pull: list[Any] = [arb(0)] * len(signs)
+            proof = arb(0)
+            for i in np.flatnonzero(self.relation).tolist():
+                lam, v = arb(float(self.relation[i])), arb(float(self.split[i]))
+                if not (lam >= 0 and v > 0 and v < 1):
+                    raise ValueError("a weight of a relation is negative, or its split is no fraction")
+                products = [int(s) * signs[a] * signs[b] for s, (a, b) in zip(side[i], pairs[i].tolist(), strict=True)]
+                if abs(sum(products)) != 1 or not set(products) <= {-1, 1}:
+                    raise ValueError("the signs are of no oriented matroid")
+                alone = products.index(-sum(products))
+                for k, weight in (((alone + 1) % 3, lam * v), ((alone + 2) % 3, lam * (1 - v)), (alone, -lam)):
+                    for triple in pairs[i, k].tolist():
+                        pull[triple] = pull[triple] + weight
+                proof -= lam * (v * v.log() + (1 - v) * (1 - v).log())
+            total = arb(0)
+            for w, pulled in zip(map(float, self.weights), pull, strict=True):
+                if not 2 * arb(w) + pulled >= 0:
+                    raise ValueError("the weights of the minors do not hold against those of the relations")
+                total += arb(w)
+                if w > 0:
+                    proof -= arb(w) * arb(w).log()
+            return float((-(total.log() + proof / total) / 2).exp().upper())
+        finally:
+            flint.ctx.prec = before
+
+
+def _exponents(n: int, signs: Signs) -> tuple[Array, Array]:
+    """For each relation the exponents of both smaller products over the largest, each (R, C(n, 3))."""
+    pairs, side = relations(n)
+    products = side * signs[pairs[:, :, 0]] * signs[pairs[:, :, 1]]
+    total = products.sum(axis=1)
+    if (abs(total) != 1).any():
+        raise ValueError("the signs are of no oriented matroid")
+    alone = np.argmax(products == -total[:, None], axis=1)
+    rows, found = np.arange(len(pairs)), []
+    for shift in (1, 2):
+        a = np.zeros((len(pairs), len(signs)))
+        for triple, amount in ((pairs[rows, (alone + shift) % 3], 1.0), (pairs[rows, alone], -1.0)):
+            np.add.at(a, (rows[:, None], triple), amount)
+        found.append(a)
+    return found[0], found[1]
+
+
+def certificate(n: int, signs: Signs, enough: float = 0.0) -> Certificate:
+    """Solve the programme of one class by an interior point method, and stop at the first dual point that proves enough.
+
+    Args:
+        n: Lines.
+        signs: (C(n, 3),) of an oriented matroid.
+        enough: A bound at or below this will do; 0: the best one.
+
+    Raises:
+        ValueError: The signs are of no oriented matroid.
+    """
+    first, second = _exponents(n, signs)
+    size, count = first.shape[1], len(first)
+    difference = first - second
+    t, lam = np.ones(size), np.full(count + size, 0.1)
+    slack = np.ones(count + size)
+    best: Certificate | None = None
+    least = np.inf
+    for _ in range(_STEPS):
+        x, y = first @ t, second @ t
+        top = np.maximum(x, y)
+        value = top + np.log(np.exp(x - top) + np.exp(y - top))
+        v = np.exp(x - value)
+        soft = np.exp(2 * t - (2 * t).max())
+        soft /= soft.sum()
+        found = _point(n, signs, lam[:count], v, soft, first, second)
+        bound = found.bound()
+        if bound < least:
+            best, least = found, bound
+        gap = slack @ lam / len(lam)
+        if least <= enough or gap < _TIGHT:
+            break
+        slope = v[:, None] * first + (1 - v)[:, None] * second
+        residual = np.concatenate([value, -t]) + slack
+        target = (0.1 if gap > 1e-4 else 0.02) * gap
+        strength = lam / slack
+        hessian = 4 * (np.diag(soft) - np.outer(soft, soft)) + np.diag(strength[count:])
+        hessian += slope.T @ (strength[:count, None] * slope)
+        hessian += difference.T @ ((lam[:count] * v * (1 - v))[:, None] * difference)
+        aim = target / slack + strength * residual
+        right = -2 * soft - slope.T @ aim[:count] + aim[count:]
+        step = np.linalg.solve(hessian + 1e-13 * np.eye(size), right)
+        along = np.concatenate([slope @ step, -step])
+        dual = aim - lam + strength * along
+        change = -residual - along
+        part = min(1.0, 0.97 * _far(lam, dual), 0.97 * _far(slack, change))
+        t, lam, slack = t + part * step, lam + part * dual, slack + part * change
+    assert best is not None
+    return best
+
+
+def _far(at: Array, change: Array) -> float:
+    """How far along a change all numbers stay positive."""
+    falling = change < 0
+    return float((at[falling] / -change[falling]).min()) if falling.any() else 2.0
+
+
+def _point(n: int, signs: Signs, lam: Array, v: Array, soft: Array, first: Array, second: Array) -> Certificate:
+    lam = np.where((lam > _NOTHING) & (v > 1e-15) & (v < 1 - 1e-15), lam, 0.0)
+    pull = (lam * v) @ first + (lam * (1 - v)) @ second
+    weights = np.maximum(soft, -pull / 2) * (1 + _SLACK) + _SLACK * 1e-3
+    return Certificate(n, signs, lam, v, weights)
+
+
+def bounds_by_arrangement(n: int, enough: float = 0.0) -> list[float]:
+    """What the least minor of n lines in space cannot exceed, for each class of their arrangements, proven in ball arithmetic.
+
+    The largest bounds relative manipulability after three failures of an arm with three degrees of redundancy.
+
+    Args:
+        n: Lines, 4 to 9; 9 takes minutes.
+        enough: A class whose bound is at or below this is not bounded more tightly; 0 bounds each as tightly as can be.
+
+    Raises:
+        ImportError: python-flint is not installed (``pip install "holdfast[certify]"``).
+
+    Source: derived here.
+    """
+    return [certificate(n, signs, enough).proven() for signs in classes(n)]

@@ -1,0 +1,82 @@
+"""A search for a null space that keeps more than the best one known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.ceilings.ascent import best_null_space
+from holdfast.ceilings.ceiling import Ceiling, look_up
+from holdfast.ceilings.minors import worst_case
+from holdfast.errors import InputError
+from holdfast.result import Result
+
+Array = NDArray[np.float64]
+
+_SAME = 1e-9  # relative
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CeilingSearch(Result):
+    """The best null space that a search found.
+
+    Attributes:
+        ceiling: What was known before.
+        null_space: (n, n - m) orthonormal columns.
+        value: Its worst case, measured anew by singular values.
+        seed: Of the random starts.
+        seconds: What it took.
+    """
+
+    ceiling: Ceiling
+    null_space: Array
+    value: float
+    seed: int
+    seconds: float
+
+    @property
+    def bound(self) -> float:
+        """What no arm can beat."""
+        return self.ceiling.bound
+
+    def describe(self) -> list[str]:
+        """What was found, beside what was known."""
+        known, what = self.ceiling.best_known, f"found {self.value:.12g} in {self.seconds:.0f} s, seed {self.seed}"
+        if known is None:
+            return [f"{what}: nothing was stored for this size, and no arm can beat {self.bound:.6g}"]
+        if self.value > known * (1 + _SAME):
+            return [f"{what}: a new best, {100 * (self.value / known - 1):.2g} % above {known:.12g}"]
+        if self.value >= known * (1 - _SAME):
+            return [f"{what}: {'the ceiling' if self.ceiling.attained else 'the best known value'}, found again"]
+        return [f"{what}: {100 * (1 - self.value / known):.2g} % below the best known {known:.12g}"]
+
+
+def search(
+    *, n: int, m: int, k: int, seed: int = 0, seconds: float = 20.0, progress: Callable[[float], None] | None = None
+) -> CeilingSearch:
+    """Search for a null space whose worst case after k failures is large: ascents from random starts, then linear programmes.
+
+    Args:
+        n: Joints.
+        m: Rows of the task.
+        k: Joints that lock at once.
+        seed: Of the starts: with the same seed a longer search goes through the same starts, and more.
+        seconds: After which no new start is polished; the first one always is.
+        progress: Called with the best value so far.
+
+    Raises:
+        InputError: As :func:`look_up`; seconds that are not positive.
+
+    Source: derived here.
+    """
+    known = look_up(n=n, m=m, k=k)
+    if not seconds > 0:
+        raise InputError(f"the search may take {seconds:g} s; give a positive number")
+    start = monotonic()
+    found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, progress=progress)
+    null = np.linalg.qr(found)[0]
+    return CeilingSearch(ceiling=known, null_space=null, value=worst_case(null, k), seed=seed, seconds=monotonic() - start)

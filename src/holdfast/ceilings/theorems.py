@@ -1,0 +1,94 @@
+"""Proven upper bounds of relative manipulability after k failures, for every arm of n joints and task of m rows.
+
+A bound is the least that the theorems give; each carries the names of those it rests on. ``docs/ceilings.md`` has the proofs.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from math import comb, pi, sin, sqrt
+from typing import NamedTuple
+
+THEOREMS = {
+    "T1": "equal entries of the null space, attained (Schur and Horn)",
+    "T2": "least of n neighbouring minors of n lines in a plane",
+    "T3": "the minors of a null space are those of the row space, by T2",
+    "T4": "equiangular lines that form a tight frame, and tasks of one row",
+    "T5": "T2 after one more lock, attained",
+    "CB": "the mean over all sets of joints (Cauchy and Binet)",
+    "R1": "one lock after the other",
+    "R2": "a positive definite kernel of degree four",
+    "R4": "a geometric program for each class of pseudoline arrangements, certificates replayed in ball arithmetic",
+}
+
+# Upper bounds by :mod:`holdfast.ceilings.arrangements`, replayed in balls and rounded up: n -> c(n, 3, 3).
+ARRANGEMENTS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
+
+
+class Bound(NamedTuple):
+    """A value that no arm can beat.
+
+    Attributes:
+        value: Of the relative manipulability.
+        by: Theorems it rests on, such as ``"R1 with R2"``.
+    """
+
+    value: float
+    by: str
+
+
+@cache
+def proven(n: int, m: int, k: int) -> Bound:
+    """The least proven bound of what is left after the worst k failures.
+
+    Args:
+        n: Joints.
+        m: Rows of the task, 1 to n - 1.
+        k: Joints that fail at once, 1 to n - m.
+
+    Source: derived here; Cauchy and Binet for ``CB``.
+    """
+    p = n - m
+    found = [*_of_theorems(n, p, k), *_step_by_step(n, p, k)]
+    if k == p:
+        # T3: the minors of all p rows of N are those of the other m rows of the orthonormal rows of J.
+        found += [Bound(value, _from("T3", by)) for value, by in [*_of_theorems(n, m, m), *_step_by_step(n, m, m)]]
+    least = min(bound.value for bound in found)
+    return next(bound for bound in found if bound.value <= least * (1 + 1e-12))  # of equal ones the first, the simplest
+
+
+def _of_theorems(n: int, p: int, k: int) -> list[Bound]:
+    m = n - p
+    found = [Bound(sqrt(comb(p, k) / comb(n, k)), "CB")]
+    if k == 1:
+        return [Bound(sqrt(p / n), "T1")]
+    if m == 1 or (n, p, k) in ((6, 3, 2), (10, 5, 2)):
+        return [Bound(found[0].value, "T4")]
+    if p == k == 2:
+        found.append(Bound(2 / n * sin(pi / n), "T2"))
+    elif k == 2:
+        found.append(Bound(sqrt(p * p * (p - 1) / ((p + 2) * n * m)), "R2"))
+    if p == k == 3:
+        if n == 6:
+            found.append(Bound(sqrt((5 - sqrt(5)) / 100), "T5"))
+        elif n in ARRANGEMENTS:
+            found.append(Bound(ARRANGEMENTS[n], "R4"))
+    return found
+
+
+def _step_by_step(n: int, p: int, k: int) -> list[Bound]:
+    """R1: ``c(n, p, k) <= c(n, p, j) c(n - j, p - j, k - j)``."""
+    m, found = n - p, []
+    for j in range(1, k):
+        first, then = proven(n, m, j), proven(n - j, m, k - j)
+        found.append(Bound(first.value * then.value, _from("R1", first.by, then.by)))
+    return found
+
+
+def _from(rule: str, *others: str) -> str:
+    """The rule and what it used besides what needs no word."""
+    words = [w for by in others for w in by.replace(" with ", " and ").split(" and ")]
+    used = [w for w in dict.fromkeys(words) if w not in (rule, "T1", "R1", "CB")]
+    if rule == "T3" and used in ([], ["T2"]):
+        return "T3"
+    return f"{rule} with {' and '.join(used)}" if used else rule

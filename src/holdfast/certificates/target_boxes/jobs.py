@@ -1,0 +1,191 @@
+"""The search for a proof in jobs: one for each part of a claim, or for each box of a part that takes very many cells.
+
+What a job finds depends on its claim, its box and the seed alone: not on how many processes there are, nor on what was found
+before by a search that was stopped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.certificates import verifier
+from holdfast.certificates.claims import ROWS, ReachClaim
+from holdfast.certificates.target_boxes.search import Search
+from holdfast.certificates.taylor import Reach
+from holdfast.certificates.tree import SPLIT, SearchState, undecided
+from holdfast.errors import InputError
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Parts = dict[str, NDArray[np.generic]]
+Stop = Callable[[], bool]
+
+_LARGE, _JOB = 1 << 16, 1 << 14  # cells: of a part that is cut, and of each job of it
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a job found.
+
+    Attributes:
+        tree: Its bisection, in pre-order.
+        centres: (leaves, n) in units of 2^-24.
+        nodes: Cells that were looked at.
+        finished: The smallest cells were reached.
+        seconds: Measured.
+        cut: Axes along which the box is to be halved one after the other, each half another job: nothing was looked for.
+        cells: That it would take, estimated.
+    """
+
+    tree: bytes
+    centres: Index
+    nodes: int
+    finished: bool
+    seconds: float
+    cut: tuple[int, ...] = ()
+    cells: float = 0.0
+
+    @property
+    def too_many(self) -> bool:
+        """A certificate cannot have so many cells."""
+        return verifier.MOST_LEAVES < self.cells < np.inf
+
+    def need_room(self) -> None:
+        """Refuse what would take too many cells.
+
+        Raises:
+            InputError: With the estimate.
+        """
+        if self.too_many:
+            raise InputError(
+                f"single configurations prove so little of this box that it would take some {self.cells:.0e} cells; "
+                "a smaller box or a narrower interval of the lock takes fewer"
+            )
+
+    @property
+    def state(self) -> SearchState:
+        """Of a search that has ended."""
+        rest = float(undecided(self.tree))
+        return SearchState(proved=1 - rest, undecided=rest, open=0.0, nodes=self.nodes)
+
+    def stored(self) -> Parts:
+        """As a memory keeps it."""
+        counts = np.array([self.nodes, *self.cut], dtype=np.int64)
+        tree = np.frombuffer(self.tree, dtype=np.uint8)
+        return {"tree": tree, "centres": self.centres, "counts": counts, "times": np.array([self.seconds, self.cells])}
+
+    @classmethod
+    def read(cls, parts: Parts) -> Found:
+        """What :meth:`stored` kept: only what is finished is."""
+        tree, counts = parts["tree"].astype(np.uint8).tobytes(), [int(x) for x in parts["counts"]]
+        seconds, cells = (float(x) for x in parts["times"])
+        return cls(tree, parts["centres"].astype(np.int64), counts[0], True, seconds, tuple(counts[1:]), cells)
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """The search over a box of a claim.
+
+    Attributes:
+        claim: The claim.
+        halvings: Of each axis of all of the claim, at most.
+        seed: Of all random draws.
+        part: Number of the claim.
+        cut: Axes along which its box was halved, one after the other.
+        number: Of this box among them.
+    """
+
+    claim: ReachClaim
+    halvings: int
+    seed: int
+    part: int = 0
+    cut: tuple[int, ...] = ()
+    number: int = 0
+
+    @property
+    def name(self) -> str:
+        """For a memory."""
+        return f"part {self.part} box {self.number} of {1 << len(self.cut)}"
+
+    @property
+    def share(self) -> float:
+        """Of the part."""
+        return 0.5 ** len(self.cut)
+
+    def parted(self, axes: tuple[int, ...]) -> list[Job]:
+        """The jobs of the boxes that halving along axes gives, in the order of a tree."""
+        return [Job(self.claim, self.halvings, self.seed, self.part, axes, k) for k in range(1 << len(axes))]
+
+    def _box(self) -> tuple[Array, Index]:
+        """(A, 2) its box, and (A,) how often each axis was halved."""
+        root = self.claim.box if self.claim.angle is None else np.vstack([self.claim.box, self.claim.angle])
+        place, depth = np.zeros(len(root), dtype=np.int64), np.zeros(len(root), dtype=np.int64)
+        for level, axis in enumerate(self.cut):
+            upper = self.number >> (len(self.cut) - 1 - level) & 1
+            place[axis], depth[axis] = 2 * place[axis] + upper, depth[axis] + 1
+        width = (root[:, 1] - root[:, 0]) * 0.5**depth
+        low = root[:, 0] + width * place
+        return (np.column_stack([low, low + width]) if self.cut else root), depth
+
+    def begun(self, until: float) -> Running:
+        """The search, which has configurations to begin with, for which there is time ``until`` (``monotonic``)."""
+        return Running(self, *self._box(), until)
+
+
+class Running:
+    """A job at work.
+
+    Attributes:
+        job: Which.
+        finished: The smallest cells were reached, or it is cut.
+    """
+
+    def __init__(self, job: Job, box: Array, depth: Index, until: float) -> None:
+        began, claim = perf_counter(), job.claim
+        self.job, self.finished = job, False
+        reach = Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits, claim.rotation, claim.angle)
+        seed = job.seed if not job.cut else [job.seed, job.number, *job.cut]
+        self._search = Search(reach, box, job.halvings - depth, seed, until)
+        self._cells, self._cut = 0.0 if job.cut else self._search.pool.cells, tuple[int, ...]()
+        if _LARGE < self._cells <= verifier.MOST_LEAVES:
+            self._cut = self._search.pool.cut(int(np.ceil(np.log2(self._cells / _JOB))), job.halvings)
+            self.finished = bool(self._cut)
+        self._seconds = perf_counter() - began
+
+    def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
+        """On with it until it is time (``monotonic``), or to stop."""
+        began = perf_counter()
+        self.finished = self._search.run(until, stop, lambda closed: tell())
+        self._seconds += perf_counter() - began
+
+    @property
+    def state(self) -> SearchState:
+        """How far it has come, as shares of its box."""
+        search = self._search
+        left = min(max(search.open, 0.0), 1.0)
+        return SearchState(proved=search.proved, undecided=max(1 - left - search.proved, 0.0), open=left, nodes=search.nodes)
+
+    def found(self) -> Found:
+        """What is found so far."""
+        tree, centres = self._search.tree.in_order()
+        rows = np.array(centres, dtype=np.int64).reshape(-1, self.job.claim.arm.n)
+        return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells)
+
+
+def joined(found: list[Found], axes: tuple[int, ...]) -> Found:
+    """Of a part, from what the jobs of its boxes found, in their order."""
+    trees = [one.tree for one in found]
+    for axis in reversed(axes):
+        trees = [bytes([SPLIT + axis]) + low + high for low, high in zip(trees[::2], trees[1::2], strict=True)]
+    return Found(
+        trees[0],
+        np.concatenate([one.centres for one in found]),
+        sum(one.nodes for one in found),
+        all(one.finished for one in found),
+        sum(one.seconds for one in found),
+    )

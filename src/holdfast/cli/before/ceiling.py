@@ -1,0 +1,72 @@
+"""``holdfast ceiling``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import JsonOption, SeedOption
+from holdfast.cli.progress import working
+from holdfast.errors import InputError
+from holdfast.grammar import TASKS
+from holdfast.present.results import printed
+
+
+def command(
+    joints: Annotated[int | None, typer.Argument(metavar="JOINTS", help="Joints of the arm.", show_default=False)] = None,
+    rows: Annotated[
+        str | None, typer.Argument(metavar="ROWS", help="Rows of the task, or its name.", show_default=False)
+    ] = None,
+    failures: Annotated[int, typer.Argument(metavar="FAILURES", help="Joints that fail at once.")] = 1,
+    table: Annotated[bool, typer.Option("--table", help="All sizes that are stored instead.")] = False,
+    task: Annotated[str | None, typer.Option("--task", help="Those of one task in --table.", show_default=False)] = None,
+    verify: Annotated[bool, typer.Option("--verify", help="Measure the stored null space anew; replay certificates.")] = False,
+    search: Annotated[
+        float | None, typer.Option("--search", help="Seconds to search for a better null space.", show_default=False)
+    ] = None,
+    arm: Annotated[
+        Path | None, typer.Option("--arm", help="Write a revolute arm that attains the best known value.", show_default=False)
+    ] = None,
+    seed: SeedOption = 0,
+    json_: JsonOption = False,
+) -> None:
+    """Show what no arm can keep of its manipulability when joints lock, and the best that is known to be attained.
+
+    It holds for every arm of so many joints, revolute or prismatic: only these three numbers count.
+
+    Example: holdfast ceiling 9 6 2
+    """
+    if table:
+        printed(hf.ceilings.table(None if task is None else _rows(task)), json_)
+        return
+    if joints is None or rows is None:
+        raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
+    found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
+    if arm is not None:
+        made = hf.designs.synthesise(found, task=_task(rows, found.m), seed=seed)
+        printed(made, json_, [hf.designs.written(made.arms[0], arm)])
+        return
+    if search is None:
+        printed(found.verify(proof=True) if verify else found, json_)
+        return
+    with working("searching") as now:
+        better = hf.ceilings.search(
+            n=found.n, m=found.m, k=found.k, seed=seed, seconds=search, progress=lambda value: now(f"best so far {value:.8f}")
+        )
+    printed(better, json_)
+
+
+def _task(text: str, rows: int) -> str:
+    """The task that arms are made for, by its name or its rows."""
+    return text if text in TASKS else {2: "planar", 3: "position", 6: "pose"}.get(rows, text)
+
+
+def _rows(text: str) -> int:
+    if text in TASKS:
+        return TASKS[text]
+    if not text.isdecimal():
+        raise InputError(f"'{text}' is neither a number of rows nor a task; tasks are {', '.join(TASKS)}")
+    return int(text)

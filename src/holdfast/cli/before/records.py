@@ -1,0 +1,60 @@
+"""``holdfast records``: list, show, check."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import NOT_MET, JsonOption
+from holdfast.errors import InputError
+from holdfast.present.results import printed, printed_each
+
+command = typer.Typer(
+    name="records",
+    help="The best arms and null spaces that anybody has found, to be checked by anyone.",
+    no_args_is_help=True,
+)
+
+NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)]
+
+
+@command.command("list")
+def list_(json_: JsonOption = False) -> None:
+    """List all records, with what no arm can beat.
+
+    Example: holdfast records list
+    """
+    printed(hf.designs.records(), json_)
+
+
+@command.command()
+def show(record: NameArgument) -> None:
+    """Show a record as the file that it is; a submission is such a file.
+
+    Example: holdfast records show pose-9R-k2-001
+    """
+    typer.echo(hf.designs.record(record).text, nl=False)
+
+
+@command.command()
+def check(
+    record: Annotated[
+        str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)
+    ] = None,
+    every: Annotated[bool, typer.Option("--all", help="All records of the book.")] = False,
+    json_: JsonOption = False,
+) -> None:
+    """Measure a record again, by code that shares nothing with what found it.
+
+    The exit code is 3 if a claim does not hold. A file is also held against the current record of its class.
+
+    Example: holdfast records check pose-9R-k2-001
+    """
+    if (record is None) != every:
+        raise InputError("give a record or --all, one of them")
+    found = [r.check() for r in (hf.designs.records().values() if every else [hf.designs.record(str(record))])]
+    printed_each(found, json_)
+    if not all(r.ok for r in found):
+        raise typer.Exit(NOT_MET)

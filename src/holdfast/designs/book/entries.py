@@ -1,0 +1,260 @@
+"""Records: one file each, and the check of what it claims."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, ValidationError
+
+from holdfast.arm.model import Arm
+from holdfast.arms import dh_file
+from holdfast.ceilings.ceiling import Ceiling, look_up, table
+from holdfast.designs.book.measuring import jacobian_of, least_left, null_space_of
+from holdfast.errors import InputError
+from holdfast.files import yaml
+from holdfast.files.yaml import Number, Strict, sentence
+from holdfast.grammar import TASKS
+from holdfast.result import Result
+
+Array = NDArray[np.float64]
+
+_ORTHONORMAL = 1e-12
+_ONE = "one configuration"
+_FOLDER = Path(__file__).parent / "data"
+
+
+class _Class(Strict):
+    task: Literal["planar", "position", "pose"] | None = None
+    rows: int
+    joints: int
+    failures: int
+    quantity: Literal["relative-manipulability"]
+    conditions: list[str]
+
+
+class _Bound(Strict):
+    value: Number
+    by: str
+
+
+class _Found(Strict):
+    by: str
+    date: str
+    how: str
+
+
+class _Check(Strict):
+    command: str
+    tolerance: Annotated[Number, Field(gt=0, le=1e-4)]
+
+
+class RecordFile(Strict):
+    """The keys of a record's file."""
+
+    id: str
+    kind: _Class = Field(alias="class")
+    value: Number
+    proven_bound: _Bound
+    found: _Found
+    arm: dh_file.ArmFile | None = None
+    null_space: list[list[Number]] | None = None
+    at: Literal["home"] | list[Number] = "home"
+    check: _Check
+    beaten_by: str | None = None
+    licence: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Record(Result):
+    """The best known of its class: an arm at one configuration, or a null space alone.
+
+    Attributes:
+        id: Class and number; never used again.
+        data: All that the file says.
+        text: The file itself, YAML.
+    """
+
+    id: str
+    data: RecordFile
+    text: str
+
+    @property
+    def ceiling(self) -> Ceiling:
+        """What is proven and known for its joints, rows and failures."""
+        c = self.data.kind
+        return look_up(n=c.joints, m=c.rows, k=c.failures)
+
+    @property
+    def gap(self) -> float:
+        """Fraction by which the proven bound is above the value."""
+        return self.data.proven_bound.value / self.data.value - 1
+
+    @property
+    def arm(self) -> Arm | None:
+        """Its arm; None for a null space alone."""
+        return None if self.data.arm is None else dh_file.built(self.data.arm, Path(f"{self.id}.yaml"))
+
+    @property
+    def q(self) -> Array:
+        """(n,) the configuration, rad."""
+        return np.zeros(self.data.kind.joints) if self.data.at == "home" else np.array(self.data.at)
+
+    def describe(self) -> list[str]:
+        """Class, value and bound."""
+        c, bound = self.data.kind, self.data.proven_bound
+        what = f"{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {c.failures} locked at once"
+        beaten = f"; beaten by {self.data.beaten_by}" if self.data.beaten_by else ""
+        return [f"{self.id}: {what}: {self.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten}"]
+
+    def check(self) -> RecordCheck:
+        """Measure everything again, with code that shares nothing with what found it."""
+        c, claimed, claims = self.data.kind, self.data, list[tuple[str, bool]]()
+        null = self._null_space(claims)
+        if null is not None:
+            value = least_left(null, c.failures)
+            near_enough = abs(value - claimed.value) <= claimed.check.tolerance * value
+            claims.append((f"value {claimed.value!r}, measured {value!r}", near_enough))
+        bound = self.ceiling.bound
+        said = claimed.proven_bound.value
+        claims.append((f"bound {said!r} by {claimed.proven_bound.by}, proven {bound!r}", abs(said - bound) <= 1e-9 * bound))
+        below = claimed.value <= bound * (1 + 1e-9)
+        claims.append(
+            ("the value is below the bound" if below else "the value beats a proven bound: one of both is wrong", below)
+        )
+        return RecordCheck(record=self, claims=claims)
+
+    def _null_space(self, claims: list[tuple[str, bool]]) -> Array | None:
+        c = self.data.kind
+        if self.data.null_space is not None:
+            if [len(row) for row in self.data.null_space] != [c.joints - c.rows] * c.joints:
+                claims.append((f"{c.joints} rows of {c.joints - c.rows} numbers", False))
+                return None
+            null = np.array(self.data.null_space)
+            lack = float(abs(null.T @ null - np.eye(null.shape[1])).max())
+            said = f"null space {null.shape}, orthonormal to {lack:.1e}"
+            claims.append((said, lack <= _ORTHONORMAL))
+            return null
+        given = self.data.arm
+        assert given is not None
+        revolute = given.convention == "standard" and all(r.type == "revolute" for r in given.rows)
+        fits = len(given.rows) == len(self.q) == c.joints and c.task is not None and TASKS[c.task] == c.rows and revolute
+        said = f"{len(given.rows)} joints in a standard table, each revolute; task {c.task} of {c.rows} rows"
+        claims.append((said, fits))
+        if not fits:
+            return None
+        unit = np.pi / 180 if given.angles == "deg" else 1.0
+        rows = [(r.a, r.alpha * unit, r.d, r.theta * unit) for r in given.rows]
+        return null_space_of(jacobian_of(rows, given.tool_point, self.q)[: c.rows])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordCheck(Result):
+    """What the check of a record found.
+
+    Attributes:
+        record: The record.
+        claims: Each claim with what was measured, and whether it holds.
+    """
+
+    record: Record
+    claims: list[tuple[str, bool]]
+
+    @property
+    def ok(self) -> bool:
+        """True where every claim holds."""
+        return all(holds for _, holds in self.claims)
+
+    def describe(self) -> list[str]:
+        """A line for each claim, and whether a submission beats the current record."""
+        lines = [f"{self.record.id}: {'holds' if self.ok else 'does not hold'}"]
+        lines += [f"{'ok' if holds else 'NOT SO'}: {said}" for said, holds in self.claims]
+        current = best_of(self.record.data.kind)
+        if self.ok and current is not None and current.id != self.record.id:
+            more = self.record.data.value / current.data.value - 1
+            compared = "beats" if more > 1e-9 else "does not beat"
+            lines.append(f"{compared} {current.id}: {100 * more:+.2g} %")
+        return lines
+
+
+class Book(dict[str, Record], Result):
+    """All records by their id."""
+
+    def describe(self) -> list[str]:
+        """How many, and how many are open."""
+        open_ = sum(r.gap > 1e-8 for r in self.values() if r.arm is None)
+        return [f"{len(self)} records; of {open_} null spaces the value is below the proven bound: those are open"]
+
+
+def records() -> Book:
+    """All records: the arms of the book, and the best null space of each stored ceiling."""
+    found = [read(path) for path in sorted(_FOLDER.glob("*.yaml"))]
+    return Book({each.id: each for each in [*found, *map(_bare, table().ceilings)]})
+
+
+def record(name: str) -> Record:
+    """The record of an id, or of a file.
+
+    Raises:
+        InputError: There is no such record; the file cannot be read or is no record, and why.
+    """
+    if name.endswith((".yaml", ".yml")) or Path(name).is_file():
+        return read(Path(name))
+    known = records()
+    if name not in known:
+        raise InputError(
+            f"there is no record '{name}'; `holdfast records list` shows all, and the name of a file ends in .yaml"
+        )
+    return known[name]
+
+
+def best_of(kind: Any) -> Record | None:
+    """The best record of the same class."""
+    same = [
+        r
+        for r in records().values()
+        if (r.data.kind.task, r.data.kind.rows, r.data.kind.joints, r.data.kind.failures)
+        == (kind.task, kind.rows, kind.joints, kind.failures)
+    ]
+    return max(same, key=lambda r: r.data.value, default=None)
+
+
+def read(path: Path) -> Record:
+    """The record of a file.
+
+    Raises:
+        InputError: It cannot be read, is no record, or holds neither an arm nor a null space.
+    """
+    return _record(yaml.content(path, "holdfast.designs.book.entries", "id"), path.read_text(encoding="utf-8"), path.name)
+
+
+def _record(content: Any, text: str, name: str) -> Record:
+    try:
+        data = RecordFile.model_validate(content)
+    except ValidationError as error:
+        raise InputError(f"{name}: {sentence(error, RecordFile, dh_file.TAGS)}") from error
+    if (data.arm is None) == (data.null_space is None):
+        raise InputError(f"{name}: a record has an arm or a null_space, one of them")
+    return Record(id=data.id, data=data, text=text)
+
+
+def _bare(c: Ceiling) -> Record:
+    """The record of a stored null space, which is an arm of no particular kind."""
+    assert c.null_space is not None
+    name = f"jacobian-{c.n}-{c.m}-{c.k}-001"
+    kind = {"rows": c.m, "joints": c.n, "failures": c.k, "quantity": "relative-manipulability", "conditions": [_ONE]}
+    content = {
+        "id": name,
+        "class": kind,
+        "value": c.best_known,
+        "proven_bound": {"value": c.bound, "by": c.bound_by},
+        "found": {"by": "holdfast", "date": "2026-11-25", "how": "holdfast ceiling --search"},
+        "null_space": c.null_space.tolist(),
+        "check": {"command": f"holdfast records check {name}", "tolerance": 1e-9},
+        "licence": "CC0-1.0",
+    }
+    return _record(content, "".join(f"{key}: {json.dumps(value)}\n" for key, value in content.items()), name)

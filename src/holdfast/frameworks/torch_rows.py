@@ -1,0 +1,130 @@
+"""A function of rows as a PyTorch function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import torch
+
+from holdfast.errors import HoldfastError
+from holdfast.frameworks.rows import RowFunction
+
+Tensor = Any
+
+
+def wrapped(function: RowFunction) -> Callable[..., Tensor]:
+    """See :meth:`holdfast.frameworks.Differentiable.to_torch`."""
+
+    def call(*inputs: Tensor) -> Tensor:
+        shapes = [tuple(x.shape) for x in inputs]
+        leading = function.leading(shapes)
+        if any(shape[:-1] != leading for shape in shapes):
+            inputs = tuple(x.expand(*leading, x.shape[-1]) for x in inputs)
+        return _applied(_Value, function, inputs)
+
+    call.__name__ = call.__qualname__ = function.name.replace(" ", "_")
+    return call
+
+
+def _on_processor(function: RowFunction, what: Callable[..., Any], tensors: tuple[Tensor, ...]) -> list[Tensor]:
+    first = tensors[0]
+    if first.dtype == torch.float64 and first.device.type == "cpu":
+        return [torch.from_numpy(out) for out in function.on_rows(what, [x.numpy(force=True) for x in tensors])]
+    if first.device.type == "cuda" and function.kernels is not None:
+        return _on_gpu(function, function.kernels[what is function.slopes], tensors)
+    arrays = [x.to(torch.float64).numpy(force=True) for x in tensors]
+    return [torch.from_numpy(out).to(device=first.device, dtype=first.dtype) for out in function.on_rows(what, arrays)]
+
+
+def _on_gpu(function: RowFunction, kernel: Any, tensors: tuple[Tensor, ...]) -> list[Tensor]:
+    """Results of a kernel on the GPU of the tensors, on PyTorch's stream: shared memory, and nothing to wait for."""
+    first = tensors[0]
+    rows = [x.detach().to(torch.float64).reshape(-1, k) for x, k in zip(tensors, function.sizes, strict=True)]
+    stream = torch.cuda.current_stream(first.device).cuda_stream
+    found = kernel.on(f"cuda:{first.device.index}").exchange(*rows, stream=stream)
+    made = [torch.from_dlpack(out) for out in (found if isinstance(found, tuple) else (found,))]
+    return [out.reshape(*first.shape[:-1], *out.shape[1:]).to(first.dtype) for out in made]
+
+
+def _applied(kind: Any, function: RowFunction, tensors: tuple[Tensor, ...]) -> Any:
+    # Only a function whose context is set up apart can be transformed (torch.func), but each call reads its signature anew,
+    # which takes several times as long as all else that is done here.
+    return (kind if _transformed() else kind.plain).apply(function, *tensors)
+
+
+_transformed: Callable[[], bool] = getattr(torch._C, "_are_functorch_transforms_active", lambda: True)
+
+
+def _vectorised(
+    kind: Any, size: int, axes: tuple[int | None, ...], function: RowFunction, tensors: tuple[Tensor, ...]
+) -> tuple[Any, Any]:
+    """Another axis before all others, whatever it was: rows have nothing to do with each other."""
+    moved = [x.expand(size, *x.shape) if axis is None else x.movedim(axis, 0) for x, axis in zip(tensors, axes, strict=True)]
+    out = kind.apply(function, *moved)
+    return out, (0,) * len(out) if isinstance(out, tuple) else 0
+
+
+class _Value(torch.autograd.Function):  # type: ignore[misc]
+    plain: Any
+
+    @staticmethod
+    def forward(function: RowFunction, *inputs: Tensor) -> Tensor:
+        return _on_processor(function, function.value, inputs)[0]
+
+    @staticmethod
+    def setup_context(ctx: Any, inputs: tuple[Any, ...], output: Tensor) -> None:
+        ctx.function, *tensors = inputs
+        ctx.save_for_backward(*tensors)
+        ctx.save_for_forward(*tensors)
+
+    @staticmethod
+    def backward(ctx: Any, upstream: Tensor) -> tuple[Tensor | None, ...]:
+        slopes = _applied(_Slopes, ctx.function, ctx.saved_tensors)
+        if ctx.function.size is None:
+            return None, *(upstream[..., None] * s for s in slopes)
+        return None, *((upstream[..., None, :] @ s)[..., 0, :] for s in slopes)
+
+    @staticmethod
+    def jvp(ctx: Any, _: None, *tangents: Tensor) -> Tensor:
+        slopes = _applied(_Slopes, ctx.function, ctx.saved_tensors)
+        if ctx.function.size is None:
+            return sum((s * t).sum(-1) for s, t in zip(slopes, tangents, strict=True))
+        return sum((s @ t[..., None])[..., 0] for s, t in zip(slopes, tangents, strict=True))
+
+    @staticmethod
+    def vmap(info: Any, axes: tuple[int | None, ...], function: RowFunction, *inputs: Tensor) -> tuple[Any, Any]:
+        return _vectorised(_Value, info.batch_size, axes[1:], function, inputs)
+
+
+class _Slopes(torch.autograd.Function):  # type: ignore[misc]
+    plain: Any
+
+    @staticmethod
+    def forward(function: RowFunction, *inputs: Tensor) -> tuple[Tensor, ...]:
+        return tuple(_on_processor(function, function.slopes, inputs))
+
+    @staticmethod
+    def setup_context(ctx: Any, inputs: tuple[Any, ...], output: tuple[Tensor, ...]) -> None:
+        ctx.function = inputs[0]
+
+    @staticmethod
+    def backward(ctx: Any, *upstream: Tensor) -> None:
+        raise HoldfastError(f"{ctx.function.name} has exact first derivatives in PyTorch, and no second ones")
+
+    @staticmethod
+    def vmap(info: Any, axes: tuple[int | None, ...], function: RowFunction, *inputs: Tensor) -> tuple[Any, Any]:
+        return _vectorised(_Slopes, info.batch_size, axes[1:], function, inputs)
+
+
+def _plain(kind: Any) -> Any:
+    def forward(ctx: Any, *inputs: Any) -> Any:
+        out = kind.forward(*inputs)
+        kind.setup_context(ctx, inputs, out)
+        return out
+
+    members = {"forward": forward, **{name: getattr(kind, name) for name in ("backward", "jvp")}}
+    return type(f"Plain{kind.__name__}", (torch.autograd.Function,), {k: staticmethod(v) for k, v in members.items()})
+
+
+_Value.plain, _Slopes.plain = _plain(_Value), _plain(_Slopes)

@@ -1,0 +1,1 @@
+"""Program -> LLVM: arithmetic, functions, translation, machine code of this processor."""

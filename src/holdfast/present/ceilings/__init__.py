@@ -1,0 +1,1 @@
+"""Ceilings, as people read them."""

@@ -1,0 +1,65 @@
+"""Ceilings of relative manipulability, their table, and what a search found, in numbers and words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from holdfast.ceilings.ceiling import Ceiling, CeilingTable
+from holdfast.ceilings.searching import CeilingSearch
+from holdfast.present.printing import Rows
+from holdfast.words import percent
+
+
+def to_dict(found: Ceiling | CeilingTable | CeilingSearch) -> dict[str, Any]:
+    """Bound, best known value and null space; of a table without null spaces."""
+    if isinstance(found, CeilingTable):
+        return {"ceilings": [_numbers(c) for c in found.ceilings]}
+    if isinstance(found, CeilingSearch):
+        numbers = _numbers(found.ceiling) | {"value": found.value, "seed": found.seed, "seconds": found.seconds}
+        return numbers | {"null_space": found.null_space.tolist()}
+    return _numbers(found) | {"null_space": None if found.null_space is None else found.null_space.tolist()}
+
+
+def _numbers(c: Ceiling) -> dict[str, Any]:
+    return {
+        "joints": c.n,
+        "rows": c.m,
+        "failures": c.k,
+        "bound": c.bound,
+        "bound_by": c.bound_by,
+        "best_known": c.best_known,
+        "attained": c.attained,
+        "closed_form": c.closed_form or None,
+        "gap": c.gap,
+    }
+
+
+def _row(c: Ceiling) -> list[str]:
+    best = "not known" if c.best_known is None else "the same" if c.attained else f"{c.best_known:.6f}"
+    gap = "" if c.gap is None else "0" if c.attained else percent(c.gap)
+    return [f"{c.n}", f"{c.m}", f"{c.k}", f"{c.bound:.6f}", c.bound_by, best, c.closed_form, gap]
+
+
+_HEAD = ["joints", "rows", "failures", "bound", "by", "best known", "in roots", "gap"]
+
+
+def tables(found: Ceiling | CeilingTable | CeilingSearch) -> list[Rows]:
+    """A row for each ceiling."""
+    if isinstance(found, CeilingSearch):
+        return [Rows(_HEAD, [_row(found.ceiling)], "what was known")]
+    return [Rows(_HEAD, [_row(c) for c in (found.ceilings if isinstance(found, CeilingTable) else [found])])]
+
+
+def key_table(found: Ceiling | CeilingTable | CeilingSearch) -> Rows:
+    """The same for notebooks."""
+    return tables(found)[0]
+
+
+def next_steps(found: Ceiling | CeilingTable | CeilingSearch, name: str) -> list[str]:
+    """What one does with it."""
+    if isinstance(found, CeilingTable):
+        return [f"{name}.ceilings[0].null_space  # the best that is known"]
+    if isinstance(found, CeilingSearch):
+        return [f"{name}.null_space  # attains {found.value:.6g}"]
+    search = f"hf.ceilings.search(n={found.n}, m={found.m}, k={found.k}, seconds=60)  # is there a better one?"
+    return [f"{name}.verify()  # measures the null space anew", *([] if found.attained else [search])]

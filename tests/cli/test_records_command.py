@@ -1,0 +1,68 @@
+"""``holdfast records`` and ``holdfast ceiling``."""
+
+import json
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+
+
+def test_a_submission_is_held_against_the_current_record(tmp_path, cli):
+    text = hf.designs.record("pose-9R-k2-001").text
+    file = tmp_path / "mine.yaml"
+    file.write_text(text.replace("id: pose-9R-k2-001", "id: mine"), encoding="utf-8")
+    code, out, _ = cli("records", "check", str(file))
+    assert code == 0
+    assert "does not beat pose-9R-k2-001" in out
+    file.write_text(text.replace("0.24742", "0.26742"), encoding="utf-8")
+    code, out, _ = cli("records", "check", str(file))
+    assert code == 3
+    assert "the value beats a proven bound: one of both is wrong" in out
+    for wrong, said in ((text.replace("licence:", "license:"), "license"), (text.replace("a: 0.", "b: 0."), "rows")):
+        file.write_text(wrong, encoding="utf-8")
+        code, _, err = cli("records", "check", str(file))
+        assert code == 2
+        assert said in err
+    assert cli("records", "check", "nothing")[0] == 2
+
+
+def test_the_book_is_listed_and_checked_at_once(cli):
+    listed = json.loads(cli("records", "list", "--json")[1])["records"]
+    code, out, _ = cli("records", "check", "--all", "--json")
+    assert code == 0
+    assert [x["id"] for x in listed] == [x["record"] for x in json.loads(out)]
+    assert cli("records", "check")[0] == 2
+
+
+def test_an_arm_of_a_ceiling_is_written_and_read(tmp_path, cli):
+    file = tmp_path / "nine.yaml"
+    code, out, _ = cli("ceiling", "9", "pose", "2", "--arm", str(file), "--json")
+    assert code == 0
+    made = json.loads(out)
+    arm = hf.Arm.from_dh(hf.arms.dh_table(hf.arms.resolve(str(file))).rows)
+    j = arm.jacobian(np.zeros(9))
+    null = np.linalg.svd(j)[2][6:].T
+    least = min(abs(np.linalg.det(null[[a, b]] @ null[[a, b]].T)) ** 0.5 for a in range(9) for b in range(a))
+    assert least == pytest.approx(made["value"] - made["losses"][0], abs=1e-9)
+
+
+def test_ceilings_on_the_command_line(cli):
+    assert "the best that is known is 0.2474358297 = sqrt(3)/7" in cli("ceiling", "9", "pose", "2")[1]
+    found = json.loads(cli("ceiling", "8", "6", "2", "--verify", "--json")[1])
+    assert found["attained"]
+    assert np.array(found["null_space"]).shape == (8, 2)
+    assert len(json.loads(cli("ceiling", "--table", "--task", "planar", "--json")[1])["ceilings"]) == 13
+    better = json.loads(cli("ceiling", "6", "3", "2", "--search", "0.3", "--json")[1])
+    assert better["value"] == pytest.approx(5**-0.5, rel=1e-6)
+    for words, said in (
+        (("7", "7"), "there is no redundancy"),
+        (("9", "6", "4"), "the ceiling is 0"),
+        (("9", "seven"), "neither a number of rows nor a task"),
+        ((), "give the joints and the rows"),
+        (("--table", "--task", "7"), "nothing is stored"),
+        (("7", "5", "2", "--arm", "a.yaml"), "arms are made for"),
+    ):
+        code, _, err = cli("ceiling", *words)
+        assert code == 2
+        assert said in err

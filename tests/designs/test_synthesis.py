@@ -1,0 +1,180 @@
+"""Arms made from null spaces and Jacobians, and the record book: the index of the library and MuJoCo measure them."""
+
+import numpy as np
+import pytest
+import yaml
+
+import holdfast as hf
+from holdfast.designs.synthesis.axes import axes_of, poses_of
+
+ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+
+
+def left(arm, task, k):
+    """The least relative manipulability at zero, by reduced Jacobians and determinants (Abdi 2012, eq. 3)."""
+    from itertools import combinations
+
+    j = arm.jacobian(np.zeros(arm.n))[ROWS[task]]
+    volumes = [np.linalg.det(x @ x.T) for x in (np.delete(j, s, axis=1) for s in combinations(range(arm.n), k))]
+    return np.sqrt(max(min(volumes), 0) / np.linalg.det(j @ j.T))
+
+
+@pytest.mark.parametrize(
+    ("task", "n", "m", "k"),
+    [
+        ("planar", 5, 2, 3),
+        ("position", 4, 3, 1),
+        ("position", 6, 3, 3),
+        ("pose", 7, 6, 1),
+        ("pose", 9, 6, 3),
+        ("pose", 10, 6, 2),
+    ],
+)
+def test_a_ceiling_is_realised_by_a_revolute_arm(task, n, m, k):
+    c = hf.ceilings.look_up(n=n, m=m, k=k)
+    exact = hf.designs.synthesise(c, task=task, starts=4, seed=1, decimals=16)
+    assert max(exact.losses) < 1e-9
+    assert left(exact.arms[0], task, k) == pytest.approx(c.best_known, rel=1e-9)
+    made = hf.designs.synthesise(c, task=task, starts=4, seed=1)
+    assert min(made.losses) < 1e-4
+    for arm, loss in zip(made.arms, made.losses, strict=True):
+        assert left(arm, task, k) == pytest.approx(made.value - loss, abs=1e-10)
+        assert sum(abs(r.a) + abs(r.d) for r in hf.arms.dh_table(arm).rows[:-1]) == pytest.approx(2, abs=1e-3)
+
+
+def test_lines_of_poses_are_found_from_nearly_every_start():
+    null = hf.ceilings.look_up(n=7, m=6).null_space
+    found, residual = poses_of(null, starts=20, seed=0)
+    assert residual < 1e-12
+    assert len(found) >= 15
+    for j in found:
+        assert abs((j[:3] * j[3:]).sum(axis=0)).max() < 1e-9
+        np.testing.assert_allclose(np.linalg.norm(j[3:], axis=0), 1, atol=1e-11)
+        assert abs(j @ null).max() < 1e-9
+
+
+@pytest.mark.parametrize("task", ["planar", "position", "pose"])
+def test_a_jacobian_comes_back(task, rng, pa10_7):
+    j = pa10_7.jacobian(rng.uniform(-1, 1, 7)) if task == "pose" else rng.normal(size=(len(ROWS[task]), 7))
+    arm = hf.designs.synthesise(jacobian=j, task=task, failures=1, decimals=16).arms[0]
+    np.testing.assert_allclose(arm.jacobian(np.zeros(7))[ROWS[task]], j, atol=1e-9)
+
+
+def test_what_is_no_jacobian_of_an_arm_is_refused(pa10_7):
+    j = pa10_7.jacobian(np.full(7, 0.3))
+    for wrong, said in (
+        (np.where(np.arange(7) == 2, 0, j), "column 3 of the Jacobian is 0"),
+        (j * np.where(np.arange(7) == 4, 1.01, 1.0), "column 5 of the Jacobian is the velocity of no revolute joint"),
+        (np.where(np.arange(7) == 4, np.nan, j), "not finite"),
+        (j[[0, 1, 2, 3, 4, 4]], "dependent"),
+    ):
+        with pytest.raises(hf.InputError, match=said):
+            axes_of(wrong)
+    with pytest.raises(hf.InputError, match="has 3 rows; task 'pose' has 6"):
+        hf.designs.synthesise(jacobian=j[:3])
+    with pytest.raises(hf.InputError, match="give one of"):
+        hf.designs.synthesise()
+    with pytest.raises(hf.InputError, match="not orthonormal"):
+        hf.designs.synthesise(null_space=np.ones((7, 1)))
+    with pytest.raises(hf.InputError, match="of task 'pose' with 6 rows"):
+        hf.designs.synthesise(hf.ceilings.look_up(n=5, m=3, k=2))
+
+
+# ---- orders ------------------------------------------------------------------------------------------------------------
+
+
+def test_orders_are_judged_as_the_index_judges_their_arms(pa10_7):
+    """A few orders: the same draws through the index of the arm that is made for each of them."""
+    (j,), _ = poses_of(hf.ceilings.look_up(n=7, m=6).null_space, starts=1, seed=2)
+    found = hf.designs.judge_orders(j, samples=300, at_most=3, seed=5)
+    assert found.at_home == pytest.approx(7**-0.5, rel=1e-9)
+    draws = np.random.default_rng(5)
+    draws.permutation(np.zeros((2520, 7)))  # the orders are drawn first
+    q = draws.uniform(-np.pi, np.pi, (300, 7))
+    for d, order in enumerate(found.orders):
+        arm = hf.designs.synthesise(jacobian=j[:, order], decimals=16).arms[0]
+        rho = np.array([least(arm.jacobian(x)) for x in q])
+        assert found.mean[d] == pytest.approx(rho.mean(), rel=1e-7)
+        assert found.counts[d].tolist() == [(rho >= h).sum() for h in found.thresholds]
+        assert found.interval(d, 1).low <= found.fractions[d, 1] <= found.interval(d, 1).high
+
+
+def least(jacobian):
+    return abs(np.linalg.svd(jacobian)[2][-1]).min()
+
+
+def test_a_reversed_order_is_the_same_arm_read_from_the_tool(rng):
+    """At the angles of the first in reverse and the other way round both have the same value."""
+    (j,), _ = poses_of(hf.ceilings.look_up(n=7, m=6).null_space, starts=1, seed=2)
+    one, other = (hf.designs.synthesise(jacobian=x, decimals=16).arms[0] for x in (j, j[:, ::-1]))
+    for q in rng.uniform(-np.pi, np.pi, (20, 7)):
+        assert least(one.jacobian(q)) == pytest.approx(least(other.jacobian(-q[::-1])), abs=1e-10)
+
+
+def test_orders_that_cannot_be_judged(pa10):
+    with pytest.raises(hf.InputError, match="say how many with at_most"):
+        hf.designs.judge_orders(pa10.jacobian(np.full(9, 0.3)))
+    with pytest.raises(hf.InputError, match="of 6 rows"):
+        hf.designs.judge_orders(np.eye(3))
+
+
+# ---- the record book ---------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def book():
+    return hf.designs.records()
+
+
+def test_every_record_holds(book):
+    assert len(book) >= 50
+    for record in book.values():
+        assert record.check().ok, record.check().describe()
+
+
+def test_a_changed_digit_is_found(book, tmp_path):
+    """The last but two of the value, of a length, of an entry of a null space."""
+    for name in ("pose-9R-k2-001", "position-6R-k3-001", "jacobian-9-6-2-001"):
+        data = yaml.safe_load(book[name].text)
+        for change in ("value", "bound", "inside"):
+            new = yaml.safe_load(book[name].text)
+            if change == "value":
+                new["value"] = data["value"] * (1 + 1e-7)
+            elif change == "bound":
+                new["proven_bound"]["value"] *= 1 - 1e-6
+            elif "arm" in new:
+                new["arm"]["rows"][3]["a"] += 1e-5
+            else:
+                new["null_space"][4][1] += 1e-7
+            file = tmp_path / "changed.yaml"
+            file.write_text(yaml.safe_dump(new), encoding="utf-8")
+            assert not hf.designs.record(str(file)).check().ok, (name, change)
+
+
+def test_a_record_in_mujoco(book):
+    """The arm, built in MuJoCo from its table, has at home the index that the record claims: Jacobian by MuJoCo."""
+    mujoco = pytest.importorskip("mujoco")
+    record = book["pose-9R-k2-001"]
+    arm = record.arm
+    body, end = "", ""
+    for k, joint in enumerate(arm.joints):
+        x, y, z, w = _quaternion(joint.origin[:3, :3])
+        place = " ".join(map(repr, joint.origin[:3, 3].tolist()))
+        body += f'<body pos="{place}" quat="{w} {x} {y} {z}"><joint axis="{" ".join(map(repr, joint.axis.tolist()))}"/>'
+        body += f'<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>{"" if k < arm.n - 1 else "<site/>"}'
+        end += "</body>"
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{body}{end}</worldbody></mujoco>")
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    j = np.zeros((6, arm.n))
+    mujoco.mj_jacSite(model, data, j[:3], j[3:], 0)
+    null = np.linalg.svd(j)[2][6:].T
+    pairs = [np.sqrt(np.linalg.det(null[[a, b]] @ null[[a, b]].T)) for a in range(9) for b in range(a)]
+    assert min(pairs) == pytest.approx(record.data.value, rel=1e-8)
+    assert hf.indices.relative_manipulability(arm, "pose", 2)(record.q) == pytest.approx(record.data.value, rel=1e-9)
+
+
+def _quaternion(rotation):
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_matrix(rotation).as_quat().tolist()

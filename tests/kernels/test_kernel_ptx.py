@@ -1,0 +1,54 @@
+"""Kernels as PTX: what the translation writes, and where NVIDIA's assembler is installed, what it says of that."""
+
+from __future__ import annotations
+
+import os
+import re
+
+import casadi as ca
+import ptx_kernels
+import pytest
+from test_kernel_operations import TABLE
+
+from holdfast.kernels import Program
+from holdfast.kernels.gpu import ptx
+from holdfast.kernels.llvm.functions import FUNCTIONS
+from holdfast.kernels.program import OP_NAMES
+
+
+def test_every_operation_becomes_ptx_that_calls_nothing():
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    program = Program("all", [x, y], [ca.vertcat(*[expression(x, y) for _, expression, *_ in TABLE.values()])])
+    assert {OP_NAMES[op] for op in FUNCTIONS} <= {OP_NAMES[i.op] for i in program.instructions}
+    for capability in (70, 75, 90, 100, 121):
+        text = ptx.ptx_text(program, capability).decode()
+        assert re.search(r"\.target sm_(\d+)", text)[1] == str(min(capability, 90))
+        assert ".visible .entry rows(" in text
+        assert not re.search(r"\bcall\b|\.extern|\.local", text)
+        assert not re.search(r"\b(div|sqrt|fma|add|mul)\.(approx|ftz|rz|full)", text)  # all rounded to nearest
+
+
+def test_ptx_is_kept_beside_the_object_files(monkeypatch):
+    x = ca.SX.sym("x", 2)
+    program = Program("kept", [x], [ca.vertcat(ca.exp(x), ca.sumsqr(x))])
+    first = ptx.ptx_text(program, 80), ptx.ptx_text(program, 90), ptx.ptx_text(program, 90, state=2)
+    assert len(set(first)) == 3
+    monkeypatch.setattr(ptx, "_translated", None)
+    assert first == (ptx.ptx_text(program, 80), ptx.ptx_text(program, 90), ptx.ptx_text(program, 90, state=2))
+
+
+def test_the_assembler_takes_every_kernel_and_needs_what_the_table_says():
+    ptxas = ptx_kernels.assembler()
+    if ptxas is None:
+        pytest.skip("NVIDIA's assembler is not installed: CONTRIBUTING has the command that runs this test")
+    head, table = ptx_kernels.stored()
+    every = os.environ.get("HOLDFAST_PTX") == "all"
+    found = {
+        (name, target): ptx_kernels.assembled(program, state, target, ptxas)
+        for name, (program, state) in ptx_kernels.kernels(every).items()
+        for target in (ptx_kernels.TARGETS if every else ptx_kernels.TARGETS[-1:])
+    }
+    assert found
+    if head == ptx_kernels.versions(ptxas):
+        assert found == {key: table[key] for key in found}
+        assert not every or found == table
