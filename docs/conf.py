@@ -31,6 +31,7 @@ extensions = [
     "moved",
     "sidebar",
     "wholes",
+    "verifier_archive",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True

@@ -105,7 +105,7 @@ def beliefs() -> tuple[list[Claim], list[Checked]]:
     ]
     rng, most = np.random.default_rng(SEED), []
     for box in boxes:
-        most.append(float(rho(rng.uniform(*box.T, (SAMPLES, arm.n))).max()))
+        most.append(float(rho(rng.uniform(box[:, 0], box[:, 1], (SAMPLES, arm.n))).max()))
     at = ", ".join(f"{x:.0f}" for x in np.rad2deg(best))
     whole, near, ready = found
     return [
@@ -114,8 +114,8 @@ def beliefs() -> tuple[list[Claim], list[Checked]]:
             "a seventh joint makes it tolerant",
             f"a Panda within working ranges of 15 to 180 deg: {whole.proof.value:.4f} of the manipulability occurs whatever "
             f"locks, and **nowhere more than {WHOLE}** ({said(whole)})",
-            f"some lock costs more than nine tenths in every configuration; {SAMPLES:,} samples found {most[0]:.4f} at most and "
-            "could not say 'nowhere'. Positions alone are another matter: the cube of the explanation of certificates",
+            f"some lock costs more than nine tenths in every configuration; {SAMPLES:,} samples found {most[0]:.4f} at most "
+            "and could not say 'nowhere'. Positions alone are another matter: the cube of the explanation of certificates",
             Verdict.FALSE if whole.whole else Verdict.OPEN,
         ),
         Claim(

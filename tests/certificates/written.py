@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import itertools
 import json
+import shutil
 import zlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -231,6 +232,14 @@ def bundle(files: dict[str, dict[str, Any]], *, locks: list[int], ranges: Any) -
         "parts": parts,
     }
     return repaired(document | {"working_ranges": hexes(ranges)})
+
+
+def alone(folder: Path) -> Path:
+    """The verifier's files and nothing else, in a folder where an import of holdfast fails."""
+    source = Path(verifier.__file__)
+    shutil.copytree(source.parent / "verified", folder / "verified", ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "holdfast.py").write_text("raise ImportError('holdfast is imported')\n", encoding="utf-8")
+    return Path(shutil.copy(source, folder / source.name))
 
 
 def stored(document: dict[str, Any], path: Path) -> Path:

@@ -36,6 +36,11 @@ FIRST = {  # commands before
     "study run": [STUDY],
     **{f"study {of}": DONE for of in ("status", "verify", "report")},
     "study merge": [STUDY, *(f"study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
+    "calibrate": ["rehearse panda --records 2 --duration 1 --out healthy"],
+    "diagnose": [
+        "rehearse panda --records 2 --duration 1 --out healthy",
+        "calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json",
+    ],
     **{f"certificate {of}": ["certify reach planar-3r --box '1.5 0.5' --size 0.2"] for of in ("check", "show")},
     **{f"teleop {of}": [EXPERIMENT] for of in ("replay", "verify", "backup", "export", "subjects")},
 }
@@ -51,6 +56,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "follow": "--samples 11",
     "endure": "--samples 5 --spacing 0.3",
     "recover": "--samples 0",
+    "rehearse": "--records 1 --duration 0.2",
     "free-swing": "--duration 0.2",
     "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",
     "teleop run": "--operators 2",
@@ -68,6 +74,7 @@ QUICK |= {
     "certify structural-zero",
     "certify out-of-reach",
     "certify tolerant",
+    "certify path",
     "certificate check",
     "certificate show",
     "records list",

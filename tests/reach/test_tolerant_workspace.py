@@ -7,8 +7,10 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast import InputError, TaskError, arms, tolerant_workspace
+from holdfast import InputError, TaskError, arms, certify, tolerant_workspace
+from holdfast.present.reach.region import next_steps
 from holdfast.reach.samples import limited
+from holdfast.reach.suggested import box_inside
 
 
 @pytest.fixture(scope="module")
@@ -165,3 +167,25 @@ def test_a_spatial_arm_with_turns():
 def test_errors(unit3, options, error, message):
     with pytest.raises(error, match=message):
         tolerant_workspace(unit3, **{"task": "planar", **options})
+
+
+@pytest.mark.parametrize("axes", [2, 3])
+def test_a_box_of_points_inside(rng, axes):
+    low, high = rng.uniform(0.1, 0.3, axes), rng.uniform(0.6, 0.9, axes)
+    points = rng.random((4000, axes))
+    box = box_inside(points, ((points > low) & (points < high)).all(axis=1))
+    assert (box[:, 0] >= low).all()
+    assert (box[:, 1] <= high).all()
+    assert np.prod(np.diff(box)) > 0.5 * np.prod(high - low)
+    assert box_inside(points, points[:, 0] > 2) is None
+
+
+def test_what_the_sample_suggests_is_proved(unit3):
+    """The region is exact here, so the box that is suggested can be."""
+    region = tolerant_workspace(unit3, "planar", limits=np.radians([(-30, 30), (20, 100), (20, 100)]))
+    claim = region.claim()
+    np.testing.assert_array_equal(claim.working_ranges, region.limits)
+    assert np.prod(np.diff(claim.box)) > 0.1
+    proof = certify(claim, halvings=6)
+    assert proof.tolerant > 0.99
+    assert "region.claim()" in " ".join(next_steps(region, "region"))

@@ -12,7 +12,8 @@ import oracles
 from holdfast.arm.task import as_task
 from holdfast.clearance.exact.engines import installed
 from holdfast.recovery import Ending, completion, search
-from holdfast.recovery.proofs.reach import listed, proved_by, telling_first
+from holdfast.recovery.proofs.of_path import telling_first
+from holdfast.recovery.proofs.reach import listed, proved_by
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.verification import Verification, row_errors, tool_poses, verify
 

@@ -16,7 +16,7 @@ def test_a_dossier_writes_a_page_with_the_answer(file, tmp_path, monkeypatch):
     spec = importlib.util.spec_from_file_location(file.stem, file)
     dossier = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(dossier)
-    dossier.main(tmp_path, 6)
+    dossier.main(tmp_path, 3)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     whole = page
     for other in tmp_path.glob("*.html"):

@@ -29,6 +29,8 @@ from holdfast.result import Result
 if TYPE_CHECKING:
     import xarray as xr
 
+    from holdfast.certificates import ReachClaim
+
 Array = NDArray[np.float64]
 
 
@@ -312,6 +314,12 @@ class Assessment(Result):
             for name, values in self.columns.items()
         }
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
+
+    def claim(self) -> ReachClaim:
+        """What the sample suggests where it missed no pose: :func:`holdfast.certify` proves that every pose is reached."""
+        from holdfast.assessment.suggested import region_claim
+
+        return region_claim(self.arm, self.region, self.index.task, self.distribution.unreached)
 
     def describe(self) -> list[str]:
         """The answer at :meth:`default_threshold`, and what it is about."""

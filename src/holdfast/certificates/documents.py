@@ -21,6 +21,9 @@ from holdfast.certificates.joint_boxes.halving import Halving
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.target_boxes.jobs import Found
 from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.tool_paths import forms
+from holdfast.certificates.tool_paths.claims import PathClaim
+from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tree import PROVED
 
 Document = dict[str, Any]
@@ -111,6 +114,32 @@ def structural_zero(claim: StructuralZeroClaim, snapped: list[Document], points:
     return _signed(_common("structural-zero", claim, 0.0, len(points)) | kept)
 
 
+def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
+    """The certificate of slabs of lock instants, of all locks; it has the volumes of the worst."""
+    locks = []
+    for part in parts:
+        numbers = [x for slab in part.slabs for x in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
+        centres = np.array([q for slab in part.slabs for q in slab.centres]).reshape(-1, claim.arm.n)
+        rows = np.round(centres / forms.UNIT).astype("<i4")
+        rows[:, [part.joint, *part.followers]] = 0
+        kept = {"joint": part.joint, "followers": list(part.followers), "proved": verifier.paths.text(part.proved)}
+        locks.append(kept | {"cells": _packed(np.array(numbers, "<i8").tobytes()), "centres": _packed(rows.tobytes())})
+    least = min(part.proved for part in parts)
+    volumes = {"proved": least, "refuted": Fraction(0), "undecided": 1 - least}
+    return _signed(
+        _common("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
+        | {
+            "knots": _hexes(claim.knots),
+            "tube": _hexes(claim.tube),
+            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
+            "during": list(claim.during),
+            "unit": forms.UNIT.hex(),
+            "locks": locks,
+            "volumes": {key: verifier.paths.text(part) for key, part in volumes.items()},
+        }
+    )
+
+
 def _volumes(undecided: Fraction) -> Document:
     parts = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
     return {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()}
@@ -124,7 +153,7 @@ def undecided(document: Document) -> list[verifier.Cell]:
 
 def _common(
     kind: str,
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
     seconds: float,
     nodes: int,
 ) -> Document:
@@ -140,7 +169,7 @@ def _common(
         "seconds": seconds,
         "nodes": nodes,
     }
-    if isinstance(claim, BoundClaim | StructuralZeroClaim):
+    if isinstance(claim, BoundClaim | StructuralZeroClaim | PathClaim):
         return made
     return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
 

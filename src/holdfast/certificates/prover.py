@@ -18,6 +18,9 @@ from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.target_boxes.crew import Crew, Stop
 from holdfast.certificates.target_boxes.jobs import Found
+from holdfast.certificates.tool_paths import proof as motions
+from holdfast.certificates.tool_paths.claims import PathClaim
+from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.tree import SearchState, Tell, undecided
 from holdfast.engine.memory import Memory
 from holdfast.errors import InputError
@@ -49,10 +52,12 @@ def certify(claim: OutOfReachClaim, **how: Unpack[How]) -> Refutation: ...
 def certify(claim: BoundClaim, **how: Unpack[How]) -> ManipulabilityBound: ...
 @overload
 def certify(claim: StructuralZeroClaim, **how: Unpack[How]) -> StructuralZero: ...
+@overload
+def certify(claim: PathClaim, **how: Unpack[How]) -> PathProof: ...
 @checked
 @says("searching for a proof")
 def certify(
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim,
+    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
     *,
     halvings: int | None = None,
     time_limit: float | None = None,
@@ -62,19 +67,21 @@ def certify(
     progress: Progress | None = None,
     state: Tell | None = None,
     stop: Stop = lambda: False,
-) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero:
+) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero | PathProof:
     """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
 
     That nothing of a box is reached is proved by halving the box of configurations with that of the targets, until distances
     tell each of them apart; or refuted by a configuration that is found in it. A ceiling of relative manipulability is proved
     by a wrench for each part of the box of configurations, a floor by a motion. A structural zero needs no search: axes meet,
-    or they do not.
+    or they do not. That a path is finished is proved by cells of it behind each interval of lock instants, glued to each other.
 
     Args:
         claim: From :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
             :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim`,
-            :func:`holdfast.certificates.floor_claim` or :func:`holdfast.certificates.structural_zero_claim`.
-        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16.
+            :func:`holdfast.certificates.floor_claim`, :func:`holdfast.certificates.structural_zero_claim` or
+            :func:`holdfast.certificates.path_claim`.
+        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16,
+            of lock instants 6: these are halved within a segment, at most 13 times.
         time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
             one does not need the others get. Without it the same seed gives the same certificate.
         seed: Of all random draws.
@@ -90,8 +97,9 @@ def certify(
         A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
         what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling or floor a
         :class:`holdfast.certificates.ManipulabilityBound`, of a structural zero a
-        :class:`holdfast.certificates.StructuralZero`; found by the prover and not yet verified. Its file is
-        checked by :func:`check_certificate`, or without holdfast; see the explanation of certificates.
+        :class:`holdfast.certificates.StructuralZero`, of a path a :class:`holdfast.certificates.PathProof`; found by the
+        prover and not yet verified. Its file is checked by :func:`check_certificate`, or without holdfast; see the explanation
+        of certificates.
 
     Raises:
         InputError: A number out of range, a box that would take more than 2^24 cells, or workers or a store for a claim of
@@ -99,7 +107,7 @@ def certify(
         StoreError: The folder holds another search or something else, or cannot be written.
     """
     if halvings is None:
-        halvings = 16 if isinstance(claim, OutOfReachClaim | BoundClaim) else 8
+        halvings = 16 if isinstance(claim, OutOfReachClaim | BoundClaim) else 6 if isinstance(claim, PathClaim) else 8
     if not 0 <= halvings <= 20:
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
@@ -120,6 +128,8 @@ def certify(
             raise InputError("workers and store are for claims that something is reached; leave them out")
         if isinstance(claim, OutOfReachClaim):
             return refuted(claim, halvings, seed, end, stop, tell)
+        if isinstance(claim, PathClaim):
+            return motions.proved(claim, halvings, end, stop, tell)
         if isinstance(claim, StructuralZeroClaim):
             return structure.proved(claim)
         return bounded(claim, halvings, seed, end, stop, tell)

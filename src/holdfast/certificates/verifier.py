@@ -22,8 +22,6 @@ through both has no moment about any other axis, so A = 0 (or the arm is singula
 from __future__ import annotations
 
 import argparse
-import base64
-import hashlib
 import json
 import math
 import random
@@ -41,7 +39,7 @@ from fractions import Fraction
 from itertools import islice
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,77 +49,52 @@ try:
 except ImportError:  # told when a file is to be checked: the sentence of a claim needs no balls
     flint = None
 
+if TYPE_CHECKING or __package__:
+    from holdfast.certificates.verified import motions as motions
+    from holdfast.certificates.verified import paths as paths
+    from holdfast.certificates.verified.balls import LEAST, UP, Balls, above, crossed, defect, joined, length, stacked, times
+    from holdfast.certificates.verified.forms import (
+        COMMON,
+        HASH,
+        LIMITS,
+        MOST_BYTES,
+        NUMBER,
+        RATIONAL,
+        TEXT,
+        UNIT,
+        WHOLE,
+        fit,
+        need,
+        real,
+        spans,
+        within,
+    )
+    from holdfast.certificates.verified.forms import FOR_PEOPLE as FOR_PEOPLE
+    from holdfast.certificates.verified.forms import Refused as Refused
+    from holdfast.certificates.verified.forms import digest as digest
+    from holdfast.certificates.verified.forms import unpacked as unpacked
+else:  # run as a file: the folder lies beside it
+    from verified import motions, paths
+    from verified.balls import *  # noqa: F403
+    from verified.forms import *  # noqa: F403
+
 Array = NDArray[np.float64]
 Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
 
-MOST_BYTES, MOST_LEAVES, MOST_DEPTH, MOST_JOINTS, CHUNK = 256 << 20, 1 << 24, 200, 64, 256
+MOST_LEAVES, MOST_DEPTH, MOST_JOINTS, CHUNK = 1 << 24, 200, 64, 256
 MOST_STEPS = 1_000_000  # to find what overlapping cells cover
-UNIT, PROVED, SPLIT = 2.0**-24, 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
+PROVED, SPLIT = 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
 LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
 LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere
-UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
 SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [0, 1, 5]}  # rows of a ceiling or floor, positions first
 ROWS_OF_SCREWS = {6: [0, 1, 2, 3, 4, 5], 3: [2, 3, 4]}  # the same, axes first
 ROWS = {"planar xy": 2, "position xyz": 3, "pose xyz": 6, "pose xyzRPY": 6}  # by task and axes of the target
-NUMBER, TEXT, HASH = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
-WHOLE, RATIONAL = r"-?\d{1,40}", r"-?\d{1,60}/[1-9]\d{0,60}"
-LIMITS, FRAME = [f"{NUMBER}|-?inf", 2], {"rotation": [NUMBER, 9], "origin": [NUMBER, 3]}
-ARM = {"joints": [{"name": TEXT, "type": "revolute|prismatic", "limits": LIMITS, **FRAME}, ...], "tool": FRAME}
-FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
-VOLUMES = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-KINDS = "reach|bundle|refutation|ceiling|floor|structural-zero"
-COMMON: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KINDS, "arm": ARM}
-COMMON |= {"arm_digest": HASH, "source": ..., "claim": TEXT, "task": TEXT, "volumes": VOLUMES, "digest": HASH, **FOR_PEOPLE}
-real = float.fromhex
-
-
-class Refused(ValueError):
-    """A file that cannot be checked; one sentence."""
-
-
-def need(good: object, sentence: str) -> None:
-    """Refuse the file unless something holds."""
-    if not good:
-        raise Refused(sentence)
-
-
-def _fit(value: Any, form: Any, what: str) -> None:
-    """A form: an object of these keys, a list [form, length], text of a pattern, a range of integers, null; ... is anything."""
-    if isinstance(form, dict):
-        odd = sorted(form.keys() ^ value.keys() if isinstance(value, dict) else form)[:1]
-        need(not odd, f"{what} must be an object with the keys {', '.join(form)}: see {''.join(odd)[:40]!r}")
-        for key, inner in form.items():
-            _fit(value[key], inner, f"{key} of {what}")
-    elif isinstance(form, list):
-        need(isinstance(value, list) and form[1] in (len(value), ...), f"{what} must be a list of {form[1]}")
-        for one in value:
-            _fit(one, form[0], what)
-    elif isinstance(form, str):
-        need(isinstance(value, str) and re.fullmatch(form, value), f"{what} is {str(value)[:40]!r}; it must be like {form}")
-    elif isinstance(form, range):
-        need(type(value) is int and value in form, f"{what} must be a whole number from {form[0]} to {form[-1]}")
-    else:
-        need(form is ... or value is None, f"{what} must be null here")
-
-
-def _within(pairs: list[Any], outer: list[Any], what: str) -> None:
-    for (low, high), (least, most) in ([map(real, pair) for pair in both] for both in zip(pairs, outer, strict=True)):
-        good = least <= low <= high <= most and low < math.inf and high > -math.inf
-        need(good, f"{what}: {low!r} to {high!r} is upside down or goes beyond {least!r} to {most!r}")
-
-
-def digest(document: dict[str, Any]) -> str:
-    """SHA-256 of the canonical JSON of a certificate, without its digest and when and by what it was made; or of an arm."""
-    kept = {key: value for key, value in document.items() if key != "digest" and key not in FOR_PEOPLE}
-    return hashlib.sha256(json.dumps(kept, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
 
 def sentence(document: dict[str, Any]) -> str:
     """The claim of a certificate, made from its other keys; its decimals are the shortest that mean the same doubles."""
-
-    def spans(names: Iterable[str], pairs: Iterable[list[str]]) -> str:
-        return ", ".join(f"{name} {' to '.join(repr(real(x)) for x in pair)}" for name, pair in zip(names, pairs, strict=True))
-
+    if document["kind"] == "path":
+        return paths.sentence(document)
     names = [joint["name"] for joint in document["arm"]["joints"]]
     if document["kind"] == "structural-zero":
         near = "{} rad and {} m".format(*(f"{_two_digits(Fraction(x), True):g}" if x else "0" for x in snap(document)))
@@ -193,22 +166,24 @@ def _first(path: Path | zipfile.Path) -> Path | zipfile.Path:
 
 def _check(document: dict[str, Any]) -> None:
     for key in ("format", "version", "kind", "arm", "task"):  # what the form of the rest depends on
-        _fit(document.get(key), COMMON[key], key)
+        fit(document.get(key), COMMON[key], key)
     joints, locks, target = document["arm"]["joints"], document.get("locks"), document.get("target")
     n, axes, names = len(joints), str(target.get("axes") if isinstance(target, dict) else ""), [one["name"] for one in joints]
     need(1 <= n <= MOST_JOINTS and len(set(names)) == n, f"there must be 1 to {MOST_JOINTS} joints of different names")
     need(all(x.isprintable() and x and len(x) <= 200 for x in names), "joints must have names of 1 to 200 letters to print")
     turning = all(joint["type"] == "revolute" for joint in joints)
-    if document["kind"] in ("ceiling", "floor"):
+    if document["kind"] == "path":
+        paths.check(document)
+    elif document["kind"] in ("ceiling", "floor"):
         need(turning and document["task"] in SIX, f"ceilings and floors are of joints that turn, and of {' and '.join(SIX)}")
-        _fit(document, {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "locks": [range(n), ...], "tree": TEXT,
+        fit(document, {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "locks": [range(n), ...], "tree": TEXT,
                         "found": [NUMBER, n], **COMMON}, "the certificate")  # fmt: skip
-        _within(document["joint_box"], [joint["limits"] for joint in joints], "joint_box")
+        within(document["joint_box"], [joint["limits"] for joint in joints], "joint_box")
         need(1e-6 <= real(document["threshold"]) < 1, "threshold must be from 1e-6 to 1")
     elif document["kind"] == "structural-zero":
         snapped = [{"rotation": [WHOLE, 4], "origin": [RATIONAL, 3]}, n]
         need(n > 2 and turning, "structural zeros are of joints that turn")
-        _fit(document, {"locked": range(1, n - 1), "snapped": snapped, "points": [RATIONAL, n], **COMMON}, "the certificate")
+        fit(document, {"locked": range(1, n - 1), "snapped": snapped, "points": [RATIONAL, n], **COMMON}, "the certificate")
         need(document["task"] == "pose", "structural zeros are of the pose")
         need(all(any(int(x) for x in frame["rotation"]) for frame in document["snapped"]), "a quaternion is 0")
     else:
@@ -238,24 +213,13 @@ def _check_targets(document: dict[str, Any], joints: list[Any], target: Any, loc
         need(rows != 6 and turning, "refutations are of positions, and of joints that turn")
         lemma = {"link": range(n), "point": [NUMBER, 3], "least": NUMBER, "most": NUMBER, "tree": TEXT}
         form |= {"lemmas": [lemma, ...], "witness": [NUMBER, n] if document.get("witness") else None}
-    _fit(document, form, "the certificate")
+    fit(document, form, "the certificate")
     limits = document["limits"]
-    _within(limits, [joint["limits"] for joint in joints], "limits")
-    _within(document["target"]["box"], [["-inf", "inf"]] * len(axes), "box of the target")
-    _within(document.get("working_ranges", limits), limits, "working_ranges")
+    within(limits, [joint["limits"] for joint in joints], "limits")
+    within(document["target"]["box"], [["-inf", "inf"]] * len(axes), "box of the target")
+    within(document.get("working_ranges", limits), limits, "working_ranges")
     if document.get("angle"):
-        _within([document["angle"]], [limits[document["locked"]]], "angle")
-
-
-def unpacked(text: str, most: int, what: str) -> bytes:
-    """What a payload holds, of which never more than ``most`` bytes are made."""
-    opened = zlib.decompressobj()
-    try:
-        data = opened.decompress(base64.b64decode(text, validate=True), most + 1)
-    except (ValueError, zlib.error) as error:
-        raise Refused(f"{what} cannot be unpacked: {error}") from None
-    need(opened.eof and len(data) <= most and not opened.unused_data, f"{what} is cut off or holds too much")
-    return data
+        within([document["angle"]], [limits[document["locked"]]], "angle")
 
 
 def cells(tree: bytes, axes: int, last: int = 2, locks: int = 256) -> Iterator[tuple[int, Cell]]:
@@ -310,11 +274,6 @@ def _two_digits(x: Fraction, up: bool) -> Decimal:
     return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
-def _above(ball: Any) -> float:
-    """A double above a ball."""
-    return math.nextafter(float(ball.upper()), math.inf)
-
-
 def _skew(a: Any) -> Any:
     return flint.arb_mat([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
 
@@ -332,20 +291,10 @@ def _turn(axis: int, angle: Any) -> Any:
     return flint.arb_mat(turn)
 
 
-def _defect(numbers: list[str]) -> float:
-    """Above |R'R - I| (Frobenius): the nearest rotation is nearer than that."""
-    matrix = flint.arb_mat(3, 3, [real(x) for x in numbers])
-    gram = (matrix.transpose() * matrix - _turn(0, flint.arb(0))).entries()
-    defect = math.hypot(*(_above(abs(x)) for x in gram)) * UP
-    good = defect < 1e-12 and matrix.det() > 0
-    need(good, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
-    return defect
-
-
 def _rotation(numbers: list[str]) -> Any:
     """Balls around nine numbers that hold the nearest rotation."""
-    defect = _defect(numbers)
-    return flint.arb_mat(3, 3, [flint.arb(real(x), defect) for x in numbers])
+    off = defect(numbers)
+    return flint.arb_mat(3, 3, [flint.arb(real(x), off) for x in numbers])
 
 
 class Leaves:
@@ -376,7 +325,7 @@ class Leaves:
             link = flint.arb_mat(3, 1, [x, y, z if self.slides[k] else 0])
             if k + 1 < self.n and not self.slides[k + 1]:
                 link += self.rotations[k + 1] * flint.arb_mat(3, 1, [0, 0, self.origins[k + 2][2, 0]])
-            self.lengths[k] = math.hypot(*(_above(abs(x)) for x in link.entries())) * UP
+            self.lengths[k] = math.hypot(*(above(abs(x)) for x in link.entries())) * UP
 
     def __reduce__(self) -> tuple[Any, ...]:  # balls cannot be sent to another process
         return Leaves, (self._given,)
@@ -439,13 +388,13 @@ class Leaves:
         """Doubles above: error and its negative, what is left of the slopes, second derivatives: mixed, pure up and down."""
         numbers, last = flint.arb_mat(*section.shape, section.ravel().tolist()), section.shape[1] - self.m
         ones = [[int(k == last + a or k == a < self.linear) for k in range(section.shape[1])] for a in range(self.m)]
-        slope = [[_above(abs(x)) for x in row] for row in (first * numbers - flint.arb_mat(ones)).tolist()]
+        slope = [[above(abs(x)) for x in row] for row in (first * numbers - flint.arb_mat(ones)).tolist()]
         second = [(numbers.transpose() * hessian * numbers).tolist() for hessian in hessians]
         mixed = [
-            [[_above(abs(x)) if a < b else 0.0 for b, x in enumerate(row)] for a, row in enumerate(form)] for form in second
+            [[above(abs(x)) if a < b else 0.0 for b, x in enumerate(row)] for a, row in enumerate(form)] for form in second
         ]
-        pure = [[[max(_above(sign * row[a]), 0.0) for a, row in enumerate(form)] for form in second] for sign in (1, -1)]
-        return [[_above(x) for x in error], [_above(-x) for x in error], slope, mixed, *pure]
+        pure = [[[max(above(sign * row[a]), 0.0) for a, row in enumerate(form)] for form in second] for sign in (1, -1)]
+        return [[above(x) for x in error], [above(-x) for x in error], slope, mixed, *pure]
 
     def excess(self, bounds: list[Array], reach: Array, q: Array, w: Array) -> tuple[Array, Array, Array]:
         """e(S) for half widths of cells and sections, how far joints go, and the angles that they turn by; all rounded up."""
@@ -467,7 +416,7 @@ class Leaves:
             made = [self.bounds(*part, section) for part, section in zip(parts, sections, strict=True)]
             bounds = [np.array(x) for x in zip(*made, strict=True)]
             depths = [[2 << d for _, d in cell] for cell, _ in chunk]
-            widths = [[_above(flint.arb(w / d)) for w, d in zip(self.width, row, strict=True)] for row in depths]
+            widths = [[above(flint.arb(w / d)) for w, d in zip(self.width, row, strict=True)] for row in depths]
             q = np.array([counts for _, counts in chunk]) * UNIT
             s = np.zeros((len(chunk), self.m))
             # 30 times wider until e(S) <= S; then 8 times narrower: as e grows with S, e(S) is such a box again.
@@ -521,73 +470,6 @@ def _structural_zero(document: dict[str, Any], sample: int | None, workers: int,
     )  # fmt: skip
 
 
-class Balls:
-    """An array of true numbers, each within ``off`` of ``at``."""
-
-    def __init__(self, at: Any, off: Any = 0.0) -> None:
-        self.at: Array = np.asarray(at, dtype=np.float64)
-        self.off: Array = np.broadcast_to(np.asarray(off, dtype=np.float64), self.at.shape)
-
-    def __getitem__(self, key: Any) -> Balls:
-        return Balls(self.at[key], self.off[key])
-
-    def __neg__(self) -> Balls:
-        return Balls(-self.at, self.off)
-
-    def __add__(self, other: Balls) -> Balls:
-        at = self.at + other.at
-        return Balls(at, (self.off + other.off + 2.0**-52 * abs(at)) * UP + LEAST)
-
-    def transposed(self, *axes: int) -> Balls:
-        """With the axes in this order."""
-        return Balls(self.at.transpose(axes), self.off.transpose(axes))
-
-    def signed(self, by: Any) -> Balls:
-        """Times an array of -1, 0 and 1, which rounds nothing."""
-        return Balls(self.at * by, self.off * abs(by))
-
-    @property
-    def size(self) -> Array:
-        """Above the absolute values."""
-        return (abs(self.at) + self.off) * UP
-
-    @property
-    def low(self) -> Array:
-        """Below the numbers."""
-        return np.nextafter(self.at - self.off, -np.inf)
-
-
-def times(form: str, a: Balls, b: Balls) -> Balls:
-    """A product of arrays, as of ``einsum``, whose sums have at most 64 terms: each is off by less than 65 roundings."""
-    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-46 * abs(a.at), abs(b.at))))
-    return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
-
-
-def crossed(a: Balls) -> Balls:
-    """The matrices (..., 3, 3) that take b to a x b."""
-    made = [np.zeros((*a.at.shape, 3)) for _ in range(2)]
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        for x, given, sign in ((made[0], a.at, -1.0), (made[1], a.off, 1.0)):
-            x[..., i, j], x[..., j, i] = sign * given[..., k], given[..., k]
-    return Balls(*made)
-
-
-def length(x: Array, axis: int = 1) -> Array:
-    """Above the lengths of vectors."""
-    return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
-
-
-def joined(a: Balls, b: Balls) -> Balls:
-    """Along the last axis."""
-    return Balls(np.concatenate([a.at, b.at], -1), np.concatenate([a.off, b.off], -1))
-
-
-def stacked(parts: list[Balls], axis: int) -> Balls:
-    """Along a new axis."""
-    return Balls(np.stack([x.at for x in parts], axis), np.stack([x.off for x in parts], axis))
-
-
 def bent(slope: Array, second: Balls, half: Array) -> Array:
     """Above what slopes (their sizes) and second derivatives, by pairs j <= k, take from a number within half widths."""
     own, pairs = np.diagonal(second.low, axis1=1, axis2=2), np.triu(second.size, 1)
@@ -603,7 +485,7 @@ class Boxes:
         self.low, self.width = [Fraction(low) for low, _ in ends], [Fraction(high) - Fraction(low) for low, high in ends]
         self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
         numbers = [frame["rotation"] for frame in frames]
-        self.turns = [Balls(np.reshape([real(x) for x in given], (3, 3)), _defect(given)) for given in numbers]
+        self.turns = [Balls(np.reshape([real(x) for x in given], (3, 3)), defect(given)) for given in numbers]
         if flat:  # all that moves, moves in the plane: heights count nothing
             about = [turn.at for turn in self.turns[:-1]]
             good = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in about)
@@ -619,9 +501,9 @@ class Boxes:
                 k, d = part
                 exact, half = self.low[axis] + self.width[axis] * Fraction(2 * k + 1, 2 << d), self.width[axis] / (2 << d)
                 sine, cosine = flint.arb(flint.fmpq(exact.numerator, exact.denominator)).sin_cos()
-                need(max(_above(sine.rad()), _above(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
-                middle, above = float(exact), math.nextafter(float(half), math.inf)
-                self._known[axis, part] = middle, 2.0**-52 * abs(middle), above, float(sine), float(cosine)
+                need(max(above(sine.rad()), above(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
+                middle, most = float(exact), math.nextafter(float(half), math.inf)
+                self._known[axis, part] = middle, 2.0**-52 * abs(middle), most, float(sine), float(cosine)
             found.append(self._known[axis, part])
         return np.array(found)
 
@@ -873,7 +755,7 @@ class Wrenches(Boxes):
         except ZeroDivisionError:
             return 0.0, 1.0
         kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
-        low, high = ([-_above(-x) for x in kept], [_above(x) for x in kept])
+        low, high = ([-above(-x) for x in kept], [above(x) for x in kept])
         return math.sqrt(max(0.0, min(low))) * (1 - 1e-15), math.sqrt(max(0.0, min(high))) * (1 + 1e-15)
 
 
@@ -962,6 +844,7 @@ class Verdict:
     parts: tuple[Verdict, ...] = ()
     refuted: bool = False  # a configuration shows that the claim is false
     occurs: float = 0.0  # of a ceiling: a value that is attained, or less; of a floor, or more
+    whichever: Fraction | None = None  # of a path: at least this part of the lock instants is proved for all locks
 
     @property
     def sampled(self) -> bool:
@@ -971,6 +854,8 @@ class Verdict:
     @property
     def tolerant(self) -> Fraction:
         """At least this part of the targets is proved, for every locked value and, of a bundle, every lock."""
+        if self.whichever is not None:
+            return self.whichever
         return 1 - covered(self.shadow, [MOST_STEPS])
 
     @property
@@ -988,23 +873,27 @@ class Verdict:
                 return f"Refuted: {best}."
         text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
         text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
-        text += " in the worst part" * bool(self.parts)
+        text += " of the lock instants" * bool(self.document["kind"] == "path") + " in the worst part" * bool(self.parts)
         if self.document["kind"] in ("ceiling", "floor"):
             text += f" of the box; {best}"
+        elif self.document["kind"] == "path":
+            text += f"; whichever joint locks, at least {per_cent(self.tolerant)}" * bool(self.parts)
         elif self.document["kind"] != "structural-zero" and self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
 
 
-def _looked_at(leaves: Any, chosen: Iterator[Any], workers: int, tell: Callable[[int], None]) -> tuple[int, list[Any]]:
+def _looked_at(
+    leaves: Any, chosen: Iterator[Any], workers: int, tell: Callable[[int], None], chunk: int = CHUNK
+) -> tuple[int, list[Any]]:
     """How many leaves were checked, and those that were rejected."""
     checked, rejected = 0, list[Any]()
     with ExitStack() as stack:
         spread: Callable[..., Iterable[tuple[int, list[Any]]]] = map
         if workers > 1:
             spread = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
-        for size, bad in spread(leaves.rejected, iter(lambda: list(islice(chosen, CHUNK)), [])):
+        for size, bad in spread(leaves.rejected, iter(lambda: list(islice(chosen, chunk)), [])):
             checked, rejected = checked + size, rejected + bad
             tell(size)
     return checked, rejected
@@ -1102,6 +991,42 @@ def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Cal
     )  # fmt: skip
 
 
+def _path(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
+    began, faults, every = time.perf_counter(), motions.Faults(document), list(paths.slabs(document))
+    order, room, picked = list(range(len(every))), sample, set[int]()
+    random.SystemRandom().shuffle(order)
+    while order and (room is None or room > 0):
+        k = order.pop()
+        picked.add(k)
+        room = None if room is None else room - len(every[k][2])
+    chosen = [slab for k, slab in enumerate(every) if k in picked]
+    _, bad = _looked_at(faults, iter(chosen), workers, tell, 8)
+    parts, broken = [], {(slab[0], int(slab[1][0])) for slab, _ in bad}
+    for which, lock in enumerate(document["locks"]):
+        spans = [(int(ends[0]), int(ends[1])) for k, ends, _ in every if k == which]
+        need(lock["proved"] == paths.text(paths.share(spans, document)), "volumes are not those of the slabs")
+        count, wrong = sum(len(q) for k, _, q in chosen if k == which), sum(n for slab, n in bad if slab[0] == which)
+        spans = [one for one in spans if (which, one[0]) not in broken]
+        text = f"Lock of {document['arm']['joints'][lock['joint']]['name']}."
+        parts.append(
+            Verdict(
+                document=document | {"locked": lock["joint"], "claim": text, "gaps": paths.gaps(spans, document)},
+                leaves=sum(len(q) for k, _, q in every if k == which), accepted=count - wrong, rejected=wrong,
+                seconds=0.0, undecided=1 - paths.share(spans, document), shadow=frozenset(),
+                whichever=paths.share(spans, document),
+            )
+        )  # fmt: skip
+    proved = min((lock["proved"] for lock in document["locks"]), key=Fraction)
+    volumes = {"proved": proved, "refuted": "0/1", "undecided": paths.text(1 - Fraction(proved))}
+    need(document["volumes"] == volumes, "volumes are not those of the worst lock")
+    left = [gap for part in parts for gap in part.document["gaps"]]
+    return Verdict(
+        document=document, parts=tuple(parts), seconds=time.perf_counter() - began, shadow=frozenset(),
+        undecided=max(part.undecided for part in parts), whichever=1 - paths.share(left, document),
+        **{key: sum(getattr(part, key) for part in parts) for key in ("leaves", "accepted", "rejected")},
+    )  # fmt: skip
+
+
 def verify(
     path: str | Path, *, sample: int | None = None, workers: int = 1, progress: Callable[[int], None] | None = None
 ) -> Verdict:
@@ -1122,6 +1047,7 @@ def verify(
             "ceiling": _bound,
             "floor": _bound,
             "structural-zero": _structural_zero,
+            "path": _path,
         }[document["kind"]](document, sample, workers, tell)
     folder, ranges = _first(path).parent, document["working_ranges"]
     files = [load(folder / part["file"]) for part in document["parts"]]

@@ -28,8 +28,8 @@ def parted(
     arm: Arm,
     task: Task,
     pose: ArrayLike,
-    way: ArrayLike,
     *,
+    way: ArrayLike,
     limits: tuple[Array, Array],
     tolerance: tuple[float, float] = (0.0, 0.0),
     time_limit: float = 10.0,
@@ -50,11 +50,11 @@ def parted(
         limits: (n,) and (n,), finite, rad and m; equal where a joint is locked.
         tolerance: m and rad by which each row may be missed: the proof is about all these.
         time_limit: s after which there is no proof.
-        most_boxes: After which there is none.
+        most_boxes: The same, of boxes.
         blocked: As of :func:`holdfast.all_configurations`.
 
     Returns:
-        How many boxes the proof took, up to floating point; None if there is none.
+        How many boxes the proof took, up to floating point; None without a proof.
 
     Raises:
         TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
@@ -91,7 +91,7 @@ def parted(
 
 
 def _through(boxes: Array) -> Flags | None:
-    """(N,) True for boxes (N, 2, n) in a chain of boxes that touch, from where the last joint is 0 to where it is 1.
+    """(N,) True for boxes (N, 2, n) in a chain of boxes that touch, from one with the last joint at 0 to one with it at 1.
 
     None if too many touch.
     """

@@ -19,10 +19,13 @@ from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.reach import closed_form as tolerant_planar
 from holdfast.reach import samples as tolerant_sampled
 from holdfast.reach.closed_form import ThreeLinks
+from holdfast.reach.suggested import box_inside
 from holdfast.result import Result
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from holdfast.certificates.claims import TolerantClaim
 
 Array = NDArray[np.float64]
 Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
@@ -89,6 +92,25 @@ class TolerantWorkspace(Result):
         """(n,) of the points within the artificial limits, the share that some lock of each joint loses; NaN if none is."""
         size = int(self.within.sum())
         return 1 - self.survives.sum(axis=0) / size if size else np.full(self.arm.n, np.nan)
+
+    def claim(self) -> TolerantClaim:
+        """The claim that a box of points inside is failure-tolerant: :func:`holdfast.certify` proves it for every point.
+
+        The box is a large one without a point outside; the artificial limits are its working ranges.
+
+        Raises:
+            InputError: The task is not position, nor planar in the xy plane, or too few points are inside.
+        """
+        from holdfast.certificates import tolerant_claim
+
+        rows = self.task.rows
+        if rows.shape[0] not in (2, 3) or not np.array_equal(rows, np.eye(6)[: len(rows)]):
+            raise InputError(f"certificates of boxes are for tasks position and planar, not {self.task.name}")
+        box = box_inside(self.points[:, : len(rows)], self.inside)
+        if box is None:
+            raise InputError("too few points are inside to suggest a box; sample more")
+        ranges = {k: (float(low), float(high)) for k, (low, high) in enumerate(self.limits)}
+        return tolerant_claim(self.arm, box.mean(axis=1), box[:, 1] - box[:, 0], working_ranges=ranges)
 
     def describe(self) -> list[str]:
         """A few sentences for people: how large the region is, and what the locks of each joint lose."""

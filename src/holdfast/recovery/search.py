@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import chain
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -27,7 +26,8 @@ from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_p
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.flood import disconnected, holds_configuration, may_meet
-from holdfast.recovery.proofs.reach import EXACT, Tolerance, every_clear, none_within, parted_leg, telling_first, unreachable
+from holdfast.recovery.proofs.of_path import proved_of_path
+from holdfast.recovery.proofs.reach import EXACT, Tolerance, every_clear, nothing_within, unreachable
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
 from holdfast.recovery.remainder import what_is_left
@@ -44,8 +44,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-_PROVED = 3  # poses of a path, of which no configuration was found, that are tried to be proved to have none
 
 
 @checked
@@ -254,7 +252,7 @@ class _Search:
         rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
         self._look("following the tool path")
         if not rest.finished:
-            self._prove_of_path(rest, path, here)
+            self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
         return self._reach(here, path, rest, motions) if motions else rest
@@ -286,34 +284,6 @@ class _Search:
             motion[0] = here
         self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
-
-    def _prove_of_path(self, rest: RestOfPath, path: Path, here: Array) -> None:
-        """That one pose of the path cannot be met, or that no motion leads through all of them, if that can be proved."""
-        share, found, poses = rest.share, rest.found, path.pose(rest.share)
-        order = list(telling_first(len(poses)))
-        hardest = [k for k in order if not found[k]][:_PROVED]
-        broken = ((k, broken_by(self.made.keep, self.solver.rows, poses[k]) or None) for k in order)
-        tried = ((k, unreachable(self.solver, self.space.free, here, poses[k])) for k in order)
-        boxes = ((k, self._every(poses[k])[1]) for k in hardest)
-        known = next(((k, proof) for k, proof in chain(broken, tried, boxes) if proof is not None), None)
-        if known is not None:
-            hardest = list(dict.fromkeys([known[0], *hardest]))
-            at = f"at {100 * share[known[0]]:.1f} % of the tool path {known[1]}"
-            self.made = replace(self.made, proof=at, proof_kind="a pose of the path")
-        else:
-            parted = self._parted(path)
-            if parted is not None:
-                self.made = replace(self.made, proof=parted, proof_kind="disconnected")
-        if self.made.proof_kind and self.made.tolerance is not None:
-            within = any(self._none_within(poses[k]) for k in hardest) or self._parted(path, self.made.tolerance) is not None
-            self.made = replace(self.made, proved_within=within)
-
-    def _parted(self, path: Path, tolerance: Tolerance = EXACT) -> str | None:
-        return parted_leg(self.made.degraded, self.made.task, path, self.space, tolerance)
-
-    def _none_within(self, pose: Array) -> bool:
-        """Whether nothing misses a pose by no more than the tolerance."""
-        return none_within(self.made.degraded, self.made.task, pose, self.space, self.made.tolerance)
 
     def _every(self, pose: Array) -> tuple[Configurations | None, str | None]:
         return every_clear(self.made.degraded, self.made.task, pose, self.space, self.made.clearance)
@@ -374,7 +344,9 @@ class _Search:
         reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
         if proof is not None:
             kind: ProofKind = "reach bound" if None not in bounds else "boxes"
-            within = made.tolerance is not None and all(self._none_within(pose) for pose in aim.poses)
+            within = made.tolerance is not None and all(
+                nothing_within(made.degraded, made.task, pose, self.space, made.tolerance) for pose in aim.poses
+            )
             made = replace(made, proof=proof, proof_kind=kind, proved_within=within)
         offers = [
             (choice, pose)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.joint_boxes.halving import Halving, Test
+from holdfast.certificates.joint_boxes.halving import Halving, Test, need_room
 from holdfast.certificates.joint_boxes.kernels import Floor
 from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.joint_claims import BoundClaim
@@ -70,6 +70,8 @@ def bounded(
     if claim.kind == "floor":
         test = Floor(chain, _ROWS[claim.task], claim.locks, claim.threshold)
     if _sign(claim) * (value - claim.threshold) <= 0:
+        advice = f"a smaller box, or a threshold farther from {value:.4g}, which occurs, takes fewer"
+        need_room(test, claim.joint_box, halvings, seed, advice)
         finished = tree.run(test, until, stop, tell)
     seconds = perf_counter() - began
     return ManipulabilityBound(

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import ROWS, OutOfReachClaim
-from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index
+from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index, need_room
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain, Reach
 from holdfast.certificates.tree import Tell
@@ -100,8 +100,10 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop
             root, _ = _Apart(chain, lemmas, m)(box.mean(axis=1)[None], np.diff(box).T / 2)
             if root[0] != OPEN:  # nothing more is needed
                 break
+    test = _Apart(chain, lemmas, m)
+    need_room(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
     main = Halving(box, halvings)
-    finished = main.run(_Apart(chain, lemmas, m), until, stop, tell)
+    finished = main.run(test, until, stop, tell)
     tree = main.in_order()
     used = [k for k in range(len(lemmas)) if LEMMA + k in tree]
     renamed = {LEMMA + k: LEMMA + new for new, k in enumerate(used)}

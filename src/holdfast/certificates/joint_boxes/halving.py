@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, Tell
+from holdfast.certificates.verifier import MOST_LEAVES
+from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -17,6 +19,7 @@ Test = Callable[[Array, Array], tuple[Index, Array]]
 
 OPEN = -1  # what is not decided yet
 _AT_ONCE = 4096
+_PATHS, _FAR = 101, 60  # for an estimate; halvings after which nobody asks
 
 
 class Halving:
@@ -117,3 +120,30 @@ class Halving:
         ordered = np.zeros(self.nodes, dtype=np.uint8)
         ordered[place] = token
         return ordered.tobytes()
+
+
+def need_room(test: Test, box: Array, halvings: int, seed: int, advice: str) -> None:
+    """Refuse what would take more boxes than a certificate may have: by paths from the whole to where points are decided.
+
+    As many boxes as 2 to the halvings of a path fill the whole; the median counts.
+
+    Raises:
+        InputError: With the estimate, and with the advice.
+    """
+    rng = np.random.default_rng([seed, _PATHS])
+    middle, half = np.tile(box.mean(axis=1), (_PATHS, 1)), np.tile(np.diff(box)[:, 0] / 2, (_PATHS, 1))
+    depth, left = np.zeros(middle.shape, dtype=np.int64), np.arange(_PATHS)
+    while left.size > _PATHS // 2 and depth.sum(axis=1).max() < _FAR:
+        found, gain = test(middle[left], half[left])
+        gain = np.where((depth[left] < halvings) & (half[left] > 0), np.nan_to_num(gain, nan=0.0), -1.0)
+        split = (found == OPEN) & (gain.max(axis=1) > 0)
+        left, axis = left[split], gain[split].argmax(axis=1)
+        depth[left, axis] += 1
+        half[left, axis] /= 2
+        middle[left, axis] += half[left, axis] * rng.choice([-1.0, 1.0], len(left))
+    typical = float(np.median(depth.sum(axis=1)))
+    if 2**typical > MOST_LEAVES:
+        more = " or more" if typical >= _FAR else ""
+        raise InputError(
+            f"single boxes decide so little of this that it would take some {2**typical:.0e} boxes{more}; {advice}"
+        )

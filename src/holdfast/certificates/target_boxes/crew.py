@@ -7,6 +7,7 @@ import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from threading import Thread
@@ -67,6 +68,9 @@ class Crew:
         else:
             self._hear(job, found.state)
 
+    def _hear_of(self, running: Running) -> None:
+        self._hear(running.job, running.state)
+
     def _hear(self, job: Job, state: SearchState) -> None:
         self._states[job.name] = job.share, state
         shares = np.array([[share * s.proved, share * s.undecided, s.nodes] for share, s in self._states.values()])
@@ -100,11 +104,12 @@ class Crew:
         turn = np.inf if self._memory is not None and np.isinf(end) else _SLICE
         while (running or self._open) and monotonic() < end and not stop():
             waiting, self._open = self._open, []
-            for left, one in zip(range(len(running) + len(waiting), 0, -1), [*running, *waiting], strict=True):
+            turns: list[Running | Job] = [*running, *waiting]
+            for left, one in zip(range(len(turns), 0, -1), turns, strict=True):
                 now = monotonic()
                 until = now + min((end - now) / left, turn)
                 work = one.begun(until) if isinstance(one, Job) else one
-                work.run(until, stop, lambda work=work: self._hear(work.job, work.state))  # type: ignore[misc]
+                work.run(until, stop, partial(self._hear_of, work))
                 if isinstance(one, Job):
                     running.append(work)
                 if work.finished:

@@ -9,9 +9,8 @@ import numpy as np
 import typer
 
 import holdfast as hf
+from holdfast.cli.before.certify_path import path
 from holdfast.cli.certify_options import (
-    REFUTED,
-    REJECTED,
     AnglesOption,
     AroundOption,
     BoxOption,
@@ -30,7 +29,7 @@ from holdfast.cli.certify_options import (
     WithinOption,
     WorkersOption,
 )
-from holdfast.cli.larger.study import stopping
+from holdfast.cli.certify_search import proved
 from holdfast.cli.options import (
     NOT_MET,
     ArmArgument,
@@ -45,11 +44,9 @@ from holdfast.cli.options import (
     read_by_joint,
     read_numbers,
 )
-from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
-from holdfast.present.certificates.console import state
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import printed
 
 command = typer.Typer(
     name="certify",
@@ -98,7 +95,7 @@ def reach(
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    _proved(claim, out, check, json_, plot, **how)
+    proved(claim, out, check, json_, plot, **how)
 
 
 @command.command("out-of-reach")
@@ -134,7 +131,7 @@ def out_of_reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -191,7 +188,7 @@ def tolerant(
         failures=read_failures(model, failures),
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    _proved(claim, out, check, json_, plot, **how)
+    proved(claim, out, check, json_, plot, **how)
 
 
 @command.command()
@@ -230,7 +227,7 @@ def ceiling(
         failures=read_failures(model, failures),
         task=task,
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
 
 
 @command.command()
@@ -269,7 +266,10 @@ def floor(
         failures=read_failures(model, failures),
         task=task,
     )
-    _proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+
+
+command.command()(path)
 
 
 def _box_of(
@@ -315,24 +315,6 @@ def structural_zero(
         raise typer.Exit(NOT_MET)
     file = proof.write(out)
     printed(hf.check_certificate(file) if check else proof, json_, [file])
-
-
-def _proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
-    """Search, write, check, draw, print."""
-    bar = progress_bar(as_json, "ten-thousandths")
-    with stopping("") as stop, bar as progress:
-        proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
-    file = proof.write(out)
-    found = hf.check_certificate(file) if check and not stop() else None
-    printed(found or proof, as_json, [file, *drawn(proof, plot)])
-    if stop():
-        raise KeyboardInterrupt
-    if found is not None and found.rejected:
-        raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
-        raise typer.Exit(REFUTED)
-    if not proof.ok:
-        raise typer.Exit(NOT_MET)
 
 
 def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:

@@ -48,6 +48,8 @@ def next_steps(result: Assessment, name: str) -> list[str]:
     if result.optimised is None and result.region.kind != "joints":
         again = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
         steps.append(f"{again}  # what choosing configurations gains")
+    if result.region.kind == "box" and result.index.task.name in ("position", "pose") and not result.distribution.unreached:
+        steps.append(f"hf.certify({name}.claim())  # that every pose of the region is reached, not only a sample")
     return [*steps, f'{name}.report("report.html")']
 
 

@@ -37,6 +37,7 @@ _JOINTS = 3  # that move, at most
 _FIRST = 8  # cells of each joint, at first
 _MOST = {1: 20_000, 2: 80_000, 3: 120_000}  # cells looked at, by the number of joints
 _SLACK = 1e-9  # m and rad: rounding
+_ROOT = 1e-7  # m: rounding of a square root where two squares cancel
 _BALLS = 24  # along a body
 _CHUNK = 4096
 
@@ -161,23 +162,29 @@ class _Points:
 
     def places(self, frames: Array) -> Array:
         """(N, P, 3) in the world, m."""
-        pose = frames[:, self.link + 1]
-        return np.asarray(np.einsum("npij,pj->npi", pose[..., :3, :3], self.at) + pose[..., :3, 3])
+        found = np.empty((len(frames), len(self.link), 3))
+        for link in np.unique(self.link):
+            some, pose = self.link == link, frames[:, link + 1]
+            found[:, some] = self.at[some] @ pose[:, :3, :3].transpose(0, 2, 1) + pose[:, None, :3, 3]
+        return found
 
-    def moved(self, arm: Arm, frames: Array, half: Array) -> Array:
+    def moved(self, arm: Arm, frames: Array, half: Array, places: Array | None = None) -> Array:
         """(N, P) the most by which each moves where joints move by up to ``half`` (n,) from where they are, m.
 
         From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
         """
-        places, total = self.places(frames), np.zeros((len(frames), len(self.link)))
+        places, total = self.places(frames) if places is None else places, np.zeros((len(frames), len(self.link)))
         for k in range(arm.n - 1, -1, -1):
-            if half[k] == 0:
+            some = np.flatnonzero(self.link >= k)
+            if half[k] == 0 or not some.size:
                 continue
-            far = np.ones_like(total)
-            if not arm.prismatic[k]:
-                axis = frames[:, k + 1, :3, :3] @ arm.joints[k].axis
-                far = np.linalg.norm(np.cross(places - frames[:, k + 1, None, :3, 3], axis[:, None]), axis=2) + total
-            total = total + np.where(self.link >= k, far * half[k], 0.0)
+            if arm.prismatic[k]:
+                total[:, some] += half[k]
+                continue
+            away = places[:, some] - frames[:, k + 1, None, :3, 3]
+            along = away @ (frames[:, k + 1, :3, :3] @ arm.joints[k].axis)[..., None]
+            across = np.sqrt(np.maximum(np.square(away).sum(axis=2) - along[..., 0] ** 2, 0.0)) + _ROOT
+            total[:, some] += (across + total[:, some]) * half[k]
         return total
 
 
@@ -210,7 +217,7 @@ class _Blocked:
             return found
         frames = space.arm.frames(q)
         places = self._points.places(frames)
-        most = self._points.moved(space.arm, frames, half) - self._radius
+        most = self._points.moved(space.arm, frames, half, places) - self._radius
         for solid, margin, apart in self._objects:
             nearest = np.where(apart, np.inf, solid.signed_distance(places) + most)
             found |= nearest.min(axis=1) < margin + space.margin - _SLACK

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, plane_normal
 from holdfast.clearance.clearance import Clearance
-from holdfast.enclosure import Configurations, Finding, all_configurations, parted
+from holdfast.enclosure import Configurations, Finding, all_configurations
 from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
@@ -19,13 +16,10 @@ from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Space
 
-if TYPE_CHECKING:
-    from holdfast.paths.path import Path
-
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
+BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
 _SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
 Tolerance = tuple[float, float]
 EXACT: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
@@ -58,54 +52,22 @@ def every_clear(
 
     In half of the time that is left.
     """
-    blocked = _blocked(space)
+    blocked = blocked_in(space)
     found = listed(degraded, task, pose, space.seconds_left / 2, blocked)
     return found, proved_by(found, clearance, "" if blocked is None else blocked.what)
 
 
-def none_within(degraded: Degraded, task: Task, pose: Array, space: Space, tolerance: Tolerance) -> bool:
+def nothing_within(degraded: Degraded, task: Task, pose: Array, space: Space, tolerance: Tolerance) -> bool:
     """Whether it is proved that nothing clear misses a pose (4, 4) by no more than a tolerance, m and rad.
 
     In half of the time that is left.
     """
-    found = listed(degraded, task, pose, space.seconds_left / 2, _blocked(space), tolerance)
+    found = listed(degraded, task, pose, space.seconds_left / 2, blocked_in(space), tolerance)
     return found is not None and found.none
 
 
-def parted_leg(degraded: Degraded, task: Task, path: Path, space: Space, tolerance: Tolerance = EXACT) -> str | None:
-    """A sentence that proves that no continuous motion follows a tool path; None if none is proved of its straight legs.
-
-    Each leg gets half of the time that is left.
-    """
-    limits = degraded.lo, degraded.hi
-    if not np.isfinite(limits).all():  # joints that turn round and round join what boxes do not
-        return None
-    straight = path.shift.any(axis=1) & ~path.sweep.any(axis=1) & ~path.turn.any(axis=1)
-    for k in np.flatnonzero(straight).tolist():
-        try:
-            boxes = parted(
-                degraded.arm,
-                task,
-                path.starts[k],
-                path.shift[k],
-                limits=limits,
-                tolerance=tolerance,
-                time_limit=space.seconds_left / 2,
-                most_boxes=_BOXES,
-                blocked=_blocked(space),
-            )
-        except TaskError:
-            return None
-        if boxes is not None:
-            begin, end = 100 * path.bounds[k : k + 2]
-            return (
-                f"from {begin:.4g} to {end:.4g} % of the tool path no continuous motion leads through its poses: {boxes:,} "
-                "boxes of joints that may hold a configuration do not join its ends, up to floating point"
-            )
-    return None
-
-
-def _blocked(space: Space) -> BlockedBoxes | None:
+def blocked_in(space: Space) -> BlockedBoxes | None:
+    """Which boxes are blocked; None without a clearance."""
     kept = space.clearance
     return None if kept is None else BlockedBoxes(kept, space.margin, (space.low, space.high))
 
@@ -142,7 +104,7 @@ def listed(
             task,
             limits=limits,
             tolerance=tolerance,
-            most_boxes=_BOXES,
+            most_boxes=BOXES,
             first=False,
             blocked=blocked,
             **allowed,
@@ -176,17 +138,6 @@ def proved_by(found: Configurations | None, clearance: Clearance | None, what: s
     except HoldfastError:  # no library for exact signs is installed
         return None
     return f"each of its {len(found.q)} configurations touches something, by {found.boxes:,} boxes of joints and the exact sign"
-
-
-def telling_first(count: int) -> Iterator[int]:
-    """0 to count - 1, those first that most often tell: the last, the first, the middle, quarters, eighths, ..."""
-    seen, parts = set[int](), 1
-    while len(seen) < count:
-        for k in [count - 1, 0] if parts == 1 else [round(i * (count - 1) / parts) for i in range(1, parts, 2)]:
-            if k not in seen:
-                seen.add(k)
-                yield k
-        parts *= 2
 
 
 # ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------

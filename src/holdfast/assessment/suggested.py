@@ -1,0 +1,29 @@
+"""What an assessment suggests that a certificate could prove."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.certificates import ReachClaim, reach_claim
+from holdfast.errors import InputError
+from holdfast.regions import Region
+
+
+def region_claim(arm: Arm, region: Region, task: Task, unreached: float) -> ReachClaim:
+    """The claim that the arm reaches every pose of a region, of which a sample missed ``unreached``.
+
+    Raises:
+        InputError: The region is no box of positions, the task neither position nor pose, or some poses were not reached.
+    """
+    if region.kind != "box" or task.name not in ("position", "pose"):
+        raise InputError("certificates are for boxes of positions and angles, and for tasks position and pose")
+    if unreached:
+        raise InputError("poses of the sample were not reached, so that not every one of the region is; take a smaller region")
+    middle, edges = np.array(region.center), np.array(region.size)
+    if task.name == "position":
+        return reach_claim(arm, middle[:3], edges[:3])
+    # A region has its angles in the order of the paper, about z, y and x; a certificate in that of URDF.
+    turns = np.column_stack([middle - edges / 2, middle + edges / 2])[:2:-1]
+    return reach_claim(arm, middle[:3], edges[:3], rpy=turns)

@@ -1,0 +1,126 @@
+"""The form of certificates of paths: knots of a healthy motion, slabs of lock instants, and cells behind each."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .forms import COMMON, LIMITS, NUMBER, TEXT, fit, need, real, spans, unpacked, within
+
+Ints = NDArray[np.int64]
+Slab = tuple[int, Ints, Ints]  # the lock; its ends and those of its cells; centres of these
+
+SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
+ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+MOST_SEGMENTS, MOST_CELLS, MOST_TURNING = 1 << 14, 1 << 24, 32
+SHARE = r"\d{1,60}/[1-9]\d{0,60}"
+
+
+def check(document: dict[str, Any]) -> None:
+    """Refuse a document that has not the form of a path."""
+    joints, task = document["arm"]["joints"], document["task"]
+    knots, n = document.get("knots"), len(joints)
+    need(task in ROWS and n <= MOST_TURNING, f"paths are of {', '.join(ROWS)}, and of {MOST_TURNING} joints at most")
+    need(all(joint["type"] == "revolute" for joint in joints), "paths are of joints that turn")
+    count = len(knots) - 1 if isinstance(knots, list) else 0
+    need(1 <= count <= MOST_SEGMENTS, f"there must be from 1 to {MOST_SEGMENTS} segments")
+    lock = {
+        "joint": range(n),
+        "followers": [range(n), n - 1 - len(ROWS[task])],
+        "cells": TEXT,
+        "centres": TEXT,
+        "proved": SHARE,
+    }
+    form: dict[str, Any] = {
+        "knots": [[NUMBER, n], ...],
+        "tube": [NUMBER, 2],
+        "limits": [LIMITS, n],
+        "during": [range(count * SEGMENT + 1), 2],
+    }
+    volumes = {"volumes": dict.fromkeys(COMMON["volumes"], SHARE)}
+    form |= {"unit": re.escape(UNIT.hex()), "locks": [lock, ...]}
+    fit(document, {**COMMON, **form, **volumes}, "the certificate")
+    within(document["limits"], [joint["limits"] for joint in joints], "limits")
+    for knot in knots or ():
+        within([[x, x] for x in knot], document["limits"], "a knot")
+        need(all(abs(real(x)) < 7 for x in knot), "a knot turns by more than 7 rad")
+    need(all(0 <= real(x) <= 0.1 for x in document["tube"]), "a tube is from 0 to 0.1 m and rad")
+    need(document["during"][0] < document["during"][1], "during must not be empty")
+    locked = [lock["joint"] for lock in document["locks"]]
+    need(locked and locked == sorted(set(locked)), "locks must be in order, each once")
+    for lock in document["locks"]:
+        still = [lock["joint"], *lock["followers"]]
+        need(len(set(still)) == len(still), "a joint that is locked, or follows already, does not follow")
+
+
+def sentence(document: dict[str, Any]) -> str:
+    """The claim."""
+    names, knots = [joint["name"] for joint in document["arm"]["joints"]], document["knots"]
+    first, last = (repr(one / SEGMENT) for one in document["during"])
+    metres, radians = map(real, document["tube"])
+    made = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
+    said = (
+        f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {made}. For every instant from "
+    )
+    said += f"knot {first} to knot {last} at which one of {', '.join(names[one['joint']] for one in document['locks'])} locks "
+    said += f"where it is, one continuous motion within the limits ({spans(names, document['limits'])}) begins there with that "
+    said += f"joint at rest and takes the tool along the rest of the {document['task']} path"
+    if metres or radians:
+        off = f" and {radians!r} rad" if len(ROWS[document["task"]]) == 6 else ""
+        said += f", or along any continuous path that is within {metres!r} m{off} of it and begins on it"
+    return f"{said}; angles in rad, arm {document['arm_digest'][:12]}."
+
+
+def share(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> Fraction:
+    """What intervals cover of the lock instants that are claimed; they may overlap."""
+    (first, last), total, reached = document["during"], 0, 0
+    for begin, stop in sorted(spans):
+        total, reached = total + max(0, stop - max(begin, reached)), max(stop, reached)
+    return Fraction(total, last - first)
+
+
+def gaps(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> list[tuple[int, int]]:
+    """Where none of some intervals is, among the lock instants that are claimed."""
+    (at, last), left = document["during"], []
+    for begin, stop in sorted(spans):
+        left += [(at, begin)] * (begin > at)
+        at = max(at, stop)
+    return left + [(at, last)] * (last > at)
+
+
+def text(part: Fraction) -> str:
+    """As the file writes it."""
+    return f"{part.numerator}/{part.denominator}"
+
+
+def slabs(document: dict[str, Any]) -> Iterator[Slab]:
+    """Of all locks, in order; refused unless each is whole, within the claim and behind the one before."""
+    first, last = document["during"]
+    end, n = (len(document["knots"]) - 1) * SEGMENT, len(document["arm"]["joints"])
+    for which, lock in enumerate(document["locks"]):
+        packed = unpacked(lock["cells"], 8 * 4 * MOST_CELLS, "cells")
+        need(len(packed) % 8 == 0, "cells are cut off")
+        numbers = np.frombuffer(packed, "<i8").astype(np.int64)
+        centres = unpacked(lock["centres"], 4 * n * MOST_CELLS, "centres")
+        need(len(centres) % (4 * n) == 0, "centres are cut off")
+        rows, at, used, after = np.frombuffer(centres, "<i4").reshape(-1, n).astype(np.int64), 0, 0, first
+        need(not rows[:, [lock["joint"], *lock["followers"]]].any(), "centres of joints that are not free must be 0")
+        while at < len(numbers):
+            begin, stop, count = (int(x) for x in numbers[at : at + 3]) if at + 3 <= len(numbers) else (0, 0, 0)
+            ends = numbers[at + 3 : at + 3 + max(count, 0)]
+            good = after <= begin < stop <= last and (stop - 1) // SEGMENT == begin // SEGMENT
+            need(good and 0 < count == len(ends), "a slab of lock instants is out of place, or without cells")
+            faces = np.append(begin, ends)
+            good = (np.diff(faces) > 0).all() and faces[1] >= stop and faces[-1] == end
+            need(good and ((faces[1:] - 1) // SEGMENT == faces[:-1] // SEGMENT).all(), "cells of a slab leave a gap")
+            need(used + count <= len(rows), "there are fewer centres than cells")
+            yield which, np.append([begin, stop], ends), rows[used : used + count]
+            at, used, after = at + 3 + count, used + count, stop
+        need(used == len(rows), "centres are left over")

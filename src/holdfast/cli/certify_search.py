@@ -1,0 +1,34 @@
+"""What the commands of ``holdfast certify`` do with a claim."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.certify_options import REFUTED, REJECTED
+from holdfast.cli.larger.study import stopping
+from holdfast.cli.options import NOT_MET
+from holdfast.cli.progress import progress_bar
+from holdfast.present.certificates.console import state
+from holdfast.present.results import drawn, printed
+
+
+def proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
+    """Search, write, check, draw, print."""
+    bar = progress_bar(as_json, "ten-thousandths")
+    with stopping("") as stop, bar as progress:
+        proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
+    file = proof.write(out)
+    found = hf.check_certificate(file) if check and not stop() else None
+    printed(found or proof, as_json, [file, *drawn(proof, plot)])
+    if stop():
+        raise KeyboardInterrupt
+    if found is not None and found.rejected:
+        raise typer.Exit(REJECTED)
+    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
+        raise typer.Exit(REFUTED)
+    if not proof.ok:
+        raise typer.Exit(NOT_MET)

@@ -1,0 +1,343 @@
+"""What is said to be finished after a lock, against closed forms, integration by scipy, and forgers."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import written
+from driven import SEGMENT, Driven
+from written import put, shifted
+
+import holdfast as hf
+from holdfast.certificates import path_claim, verifier
+from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tool_paths import march
+from holdfast.certificates.tool_paths.forms import Following
+from holdfast.errors import InputError
+
+pytest.importorskip("flint", reason="python-flint is not installed")
+START = np.radians([-35, -45, 51, -111, -46, 84, -3])
+
+
+def straight(arm, start, move, count):
+    """Knots whose tools lie on a line, turned as at the start."""
+    q, found = np.array(start), [np.array(start)]
+    first = arm.forward_kinematics(q)
+    for k in range(1, count + 1):
+        for _ in range(6):
+            now = arm.forward_kinematics(q)
+            turn = sum(np.cross(now[:3, i], first[:3, i]) for i in range(3)) / 2
+            away = first[:3, 3] + np.array(move) * k / count - now[:3, 3]
+            q = q + np.linalg.pinv(arm.jacobian(q)) @ np.append(away, turn)
+        found.append(q)
+    return np.array(found)
+
+
+def whole(check):
+    return check.rejected == 0 and check.accepted == check.leaves > 0 and check.undecided == 0
+
+
+@pytest.fixture(scope="module")
+def moved(panda):
+    """A Panda whose tool goes down by 60 mm, in a tube of 0.1 mm and 0.1 mrad."""
+    return hf.certify(path_claim(panda, straight(panda, START, [0, 0, -0.06], 8), tube=1e-4))
+
+
+@pytest.fixture(scope="module")
+def bent(three):
+    """A planar arm that stretches: after some locks the end is out of reach."""
+    knots = np.array([0.3, 1.6, 0.7]) + np.linspace(0, 1, 11)[:, None] * [0.2, -1.2, -0.5]
+    return hf.certify(path_claim(three, knots, task="planar"))
+
+
+def test_a_panda_finishes_whatever_locks_but_its_elbow(moved, tmp_path):
+    proved = [float(part.proved) for part in moved.parts]
+    assert [proved[k] for k in (0, 1, 2, 4, 5, 6)] == [1] * 6
+    assert proved[3] < 0.5
+    check = hf.check_certificate(moved.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided, check.tolerant) == (0, moved.undecided, moved.tolerant)
+    assert [part.undecided for part in check.parts] == [1 - part.proved for part in moved.parts]
+    assert moved.leaves == check.accepted
+
+
+def test_integration_finishes_from_random_lock_instants(moved, bent, tmp_path, rng):
+    """An integrator of scipy's, on what the files say, comes to the end, within the limits."""
+    for proof, each in ((moved, 1), (bent, 4)):
+        driven = Driven(proof.write(tmp_path / "a.certificate"))
+        for lock in driven.document["locks"]:
+            slabs = driven.slabs(lock)
+            for which in rng.integers(len(slabs), size=each * bool(slabs)):
+                off, beyond = driven.finished(lock, rng.uniform(*slabs[which]))
+                assert off < 1e-6
+                assert beyond < 1e-9
+
+
+def test_closed_form_of_a_planar_arm(bent, tmp_path):
+    """Three links of 1 m: after a lock the tool turns about an elbow, or at the end of a longer link, in an annulus."""
+    assert whole(hf.check_certificate(bent.write(tmp_path / "a.certificate"))) == bent.ok
+    driven, knots = Driven(tmp_path / "a.certificate"), bent.claim.knots
+    at = (np.arange(10 * 64) + 0.5) / 64
+    healthy = np.array([driven.healthy(s)[0] for s in at])
+    angle = np.cumsum(healthy, axis=1)
+    tool = np.exp(1j * angle).sum(axis=1)
+    for part in bent.parts:
+        true = np.zeros(len(at), dtype=bool)
+        for k, q in enumerate(healthy):
+            pivot = np.exp(1j * q[0]) if part.joint == 0 else 0
+            long = 1.0 if part.joint == 0 else 2 * np.cos(q[part.joint] / 2)
+            away = np.abs(np.append(tool[k:], np.exp(1j * np.cumsum(knots[-1])).sum()) - pivot)
+            true[k] = away.max() < 1 + long and away.min() > abs(1 - long)
+        said = np.zeros(len(at), dtype=bool)
+        for begin, stop in part.spans:
+            said |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
+        assert not (said & ~true).any()
+        assert (true & ~said).mean() < 0.05
+    assert 0 < bent.tolerant < 1
+
+
+def test_joints_that_are_left_over_follow(tmp_path, rng):
+    """Nine joints and six rows: two of those that are left go on with the healthy motion."""
+    arm = hf.arms.load("pa10-9dof")
+    knots = np.radians([10, 40, -15, 80, 20, 18, -10, 36, 5]) + np.linspace(0, 0.1, 4)[:, None] * rng.normal(size=9)
+    proof = hf.certify(path_claim(arm, knots, failures=[0, 3], during=(0.3, 0.9)))
+    assert all(len(part.followers) == 2 for part in proof.parts)
+    assert proof.proved > 0.9
+    file = proof.write(tmp_path / "a.certificate")
+    check = hf.check_certificate(file)
+    assert (check.rejected, check.undecided) == (0, proof.undecided)
+    driven = Driven(file)
+    lock = driven.document["locks"][1]
+    off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[-1]))
+    assert off < 1e-6 > beyond
+
+
+def flipped(monkeypatch, knot):
+    """A search that takes the other elbow from a knot on: what it finds there exists, and no motion leads to it."""
+    before = Following.guessed
+
+    def guessed(self, forms, cells, middle):
+        q = before(self, forms, cells, middle)
+        other = np.stack([q[:, 0], q[:, 1] + q[:, 2], -q[:, 2]], axis=1)
+        other[:, 1] += 2 * np.arctan2(np.sin(q[:, 2]), 1 + np.cos(q[:, 2])) - q[:, 2]
+        return np.where((cells.start == knot * SEGMENT)[:, None], other, q)
+
+    monkeypatch.setattr(Following, "guessed", guessed)
+
+
+def test_existence_in_every_cell_is_no_motion(three, tmp_path, monkeypatch):
+    """A march without glue proves what is none, and only glue tells: by the march's own, and by the verifier's."""
+    knots = np.array([0.3, 0.8, 1.1]) + np.linspace(0, 1, 9)[:, None] * [0.2, -0.1, 0.2]
+    claim = path_claim(three, knots, failures=[0], task="planar")
+    assert hf.certify(claim).ok
+    flipped(monkeypatch, 5)
+    glued = hf.certify(claim, halvings=1)
+    assert [(part.spans[0][0], part.proved) for part in glued.parts] == [(5 * SEGMENT, 3 / 8)]
+    monkeypatch.setattr(Following, "goes_on", lambda self, before, forms: forms.good)
+    loose = hf.certify(claim, halvings=1)
+    assert loose.ok
+    check = hf.check_certificate(loose.write(tmp_path / "a.certificate"))
+    assert check.undecided == 5 / 8
+    assert check.rejected == 5
+
+
+# ---- forgers ---------------------------------------------------------------------------------------------------------
+
+
+def numbers(document, lock, key="cells", kind="<i8"):
+    return np.frombuffer(written.unpacked(document["locks"][lock][key]), kind).copy()
+
+
+def recut(change, lock=0, key="cells", kind="<i8"):
+    """A forger of a payload."""
+
+    def forge(document):
+        values = change(numbers(document, lock, key, kind))
+        document["locks"][lock][key] = written.packed(values.tobytes())
+
+    return forge
+
+
+def swapped(values):
+    rows = values.reshape(-1, 7)
+    rows[[2, 3]] = rows[[3, 2]]
+    return values
+
+
+def dropped(values):
+    """The second cell of the first slab, as if the first went as far."""
+    values[2] -= 1
+    return np.delete(values, 3)
+
+
+def moved_by(place, by):
+    def change(values):
+        values[place] += by
+        return values
+
+    return change
+
+
+def said(key, value):
+    def forge(document):
+        document["volumes"][key] = value
+
+    return forge
+
+
+@pytest.mark.parametrize(
+    "forge",
+    [
+        put(("knots", 4, 1), lambda x: shifted(x, 0.02)),
+        put(("tube", 0), lambda x: shifted(x, 0.01)),
+        put(("tube", 1), lambda x: shifted(x, 0.02)),
+        put(("arm", "joints", 5, "origin", 0), lambda x: shifted(x, 0.02)),
+        put(("limits", 1, 1), lambda x: shifted(x, -2.6)),
+        put(("locks", 1, "joint"), 2),
+        put(("locks", 0, "followers"), [1]),
+        recut(swapped, key="centres", kind="<i4"),
+        recut(moved_by(8, 10_000_000), key="centres", kind="<i4"),
+        recut(lambda x: x[:-7], key="centres", kind="<i4"),
+        recut(dropped),
+        recut(moved_by(3, 1 << 18)),
+        recut(moved_by(1, 1 << 18)),
+        recut(moved_by(0, -1)),
+        recut(moved_by(2, 1)),
+        recut(lambda x: x[:-1]),
+        recut(lambda x: np.append(x, [1, 2, 0])),
+        put(("during", 1), 9 * SEGMENT),
+        put(("locks", 3, "proved"), "1/1"),
+        said("proved", "1/1"),
+        said("undecided", "0/1"),
+        put(("task",), "position"),
+        put(("unit",), (2.0**-24).hex()),
+        put(("knots", 3, 2), "0x1.8000000000000p+2"),
+    ],
+)
+def test_what_a_forger_changes_is_rejected(moved, tmp_path, forge):
+    """With all digests made anew."""
+    document = copy.deepcopy(moved.document)
+    forge(document)
+    path = written.stored(written.repaired(document), tmp_path / "a.certificate")
+    with contextlib.suppress(verifier.Refused):
+        assert verifier.verify(path).rejected > 0
+
+
+def test_a_change_that_the_same_cells_prove_is_accepted(moved, tmp_path):
+    """Then the file is a certificate of another claim, and a true one."""
+    document = copy.deepcopy(moved.document)
+    put(("knots", 4, 1), lambda x: shifted(x, 1e-9))(document)
+    assert verifier.verify(written.stored(written.repaired(document), tmp_path / "a.certificate")).rejected == 0
+
+
+def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
+    again = hf.certify(moved.claim)
+    assert again.document["digest"] == moved.document["digest"]
+    file = moved.write(tmp_path / "a.certificate")
+    done = subprocess.run(
+        [sys.executable, written.alone(tmp_path / "alone"), file], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"accepted: {moved.leaves}, rejected: 0" in done.stdout
+    assert "sampled" in verifier.verify(file, sample=3).sentence
+
+
+# ---- bounds ----------------------------------------------------------------------------------------------------------
+
+
+def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
+    """Against differences of what the file says, by scipy's rotations."""
+    driven = Driven(moved.write(tmp_path / "a.certificate"))
+    faults = verifier.motions.Faults(moved.document)
+    q, h = START + rng.normal(size=(2, 7)) * 0.02
+    balls = verifier.Balls
+    with verifier.flint.ctx.workprec(64):
+        error, first, second = (x[0] for x in faults.expanded(balls(q[None]), balls(h[None])))
+
+    def missed(move):
+        place, turn, _ = driven.tool(q + move[:7])
+        goal, wanted, _ = driven.tool(h + move[:6:-1])  # the healthy joints backwards
+        off = turn @ wanted.T
+        return np.append(place - goal, np.array([off[2, 1] - off[1, 2], off[0, 2] - off[2, 0], off[1, 0] - off[0, 1]]) / 2)
+
+    steps = np.eye(14)
+    slopes = np.array([missed(1e-6 * x) - missed(-1e-6 * x) for x in steps]).T / 2e-6
+    assert error.at == pytest.approx(missed(np.zeros(14)), abs=1e-14)
+    assert (np.abs(error.at - missed(np.zeros(14))) <= error.off + 1e-15).all()
+    assert error.off.max() < 1e-11
+    assert first.at == pytest.approx(slopes, abs=1e-8)
+    e = 1e-4
+    for i, j in rng.integers(14, size=(20, 2)):
+        a, b = e * steps[i], e * steps[j]
+        bend = (missed(a + b) - missed(a - b) - missed(b - a) + missed(-a - b)) / (4 * e**2)
+        assert second.at[:, i, j] == pytest.approx(bend, abs=1e-6)
+
+
+def test_what_is_behind_the_second_order_is_bounded(panda, rng):
+    """The search's bound, and so the verifier's lengths, at random points, with the verifier's second derivatives."""
+    proof = hf.certify(path_claim(panda, START + np.array([[0.0], [0.01]]), failures=[1]))
+    faults, chain = verifier.motions.Faults(proof.document), Chain.of(panda)
+    assert (faults.lengths >= chain.lengths).all()
+    assert faults.lengths == pytest.approx(chain.lengths, abs=1e-9)
+    following = Following(chain, proof.claim.knots, 6, [1], np.empty(0), np.column_stack([panda.lower, panda.upper]))
+    q, goal = START[None] + 0.01, START[None]
+    with verifier.flint.ctx.workprec(64):
+        error, first, second = (x.at[0] for x in faults.expanded(verifier.Balls(q), verifier.Balls(goal)))
+    for d in rng.normal(size=(200, 14)) * 0.1:
+        ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
+        now = following._missed(following._moved(q + ours), following._moved(goal + theirs))[0][0]
+        line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
+        assert (np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None])[0] + 1e-12).all()
+
+
+# ---- claims ----------------------------------------------------------------------------------------------------------
+
+
+def test_motions_are_thinned_and_time_ends(three, tmp_path):
+    knots = np.array([0.3, 0.8, 1.1]) + np.sin(np.linspace(0, 1, 101))[:, None] * [0.2, -0.1, 0.2]
+    claim = path_claim(three, knots, task="planar", segments=10)
+    assert claim.segments == 10
+    tools = three.forward_kinematics(knots)[:, :3, 3]
+    assert 0 < claim.deviation < np.linalg.norm(np.diff(tools, axis=0), axis=1).max() / 10
+    stopped = hf.certify(claim, time_limit=1e-6)
+    assert (stopped.proved, stopped.finished, stopped.ok) == (0, False, False)
+    check = hf.check_certificate(stopped.write(tmp_path / "a.certificate"))
+    assert (check.undecided, check.rejected) == (1, 0)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"motion": np.zeros((1, 3))}, "two configurations or more"),
+        ({"motion": np.zeros((3, 2))}, "two configurations or more"),
+        ({"motion": np.array([[0, 0, 0], [0, 4, 0]])}, "configuration 2 of the motion is beyond the limits of joint2"),
+        ({"motion": np.zeros((300, 3))}, "give segments=50"),
+        ({"segments": 0}, "segments is 0"),
+        ({"during": (0.5, 0.5)}, "during must be"),
+        ({"tube": -1.0}, "the tube must be"),
+        ({"task": "pointing"}, "task is 'pointing'"),
+    ],
+)
+def test_what_makes_no_claim(three, given, said):
+    motion = given.pop("motion", np.linspace([0.1, 0.2, 0.3], [0.2, 0.3, 0.5], 5))
+    with pytest.raises(InputError, match=said):
+        path_claim(three, motion, **{"task": "planar", **given})
+
+
+def test_a_slide_is_refused():
+    slides = next(name for name in hf.arms.names() if hf.arms.load(name).prismatic.any())
+    arm = hf.arms.load(slides)
+    with pytest.raises(InputError, match="slides"):
+        path_claim(arm, np.zeros((2, arm.n)), task="position")
+
+
+def test_words_and_picture(bent):
+    told = bent.to_dict()
+    assert told["parts"]["joint1"]["proved"]["value"] == float(bent.parts[0].proved)
+    assert list(bent.figures()) == ["slices"]
+    assert "one continuous motion" in bent.describe()[0]
+    assert march.SEGMENT == SEGMENT

@@ -1,0 +1,50 @@
+"""Claims that would take more boxes than a certificate may have are refused beforehand, with an estimate."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
+from holdfast.certificates.joint_boxes import halving
+from holdfast.certificates.joint_boxes.halving import OPEN, Halving, need_room
+from holdfast.errors import InputError
+
+
+def along_first(size):
+    """A test that decides boxes of a width along the first axis."""
+
+    def test(middle, half):
+        return np.where(half[:, 0] <= size, 0, OPEN), np.where([True, False], half, 0.0)
+
+    return test
+
+
+def test_the_estimate_of_a_uniform_tree_is_exact():
+    box, deep = np.array([[0.0, 1.0], [0.0, 1.0]]), 25
+    need_room(along_first(2.0**-25), box, 60, 0, "")  # 2^24 boxes
+    with pytest.raises(InputError, match=r"some 3e[+]07 boxes; ask for less"):
+        need_room(along_first(2.0**-26), box, 60, 0, "ask for less")
+    need_room(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
+    tree = Halving(box, 60)
+    tree.run(along_first(2.0**-11))
+    assert tree.leaves == 2**10
+
+
+def test_poses_in_a_wide_box(panda):
+    rpy = np.column_stack([[np.pi - 0.17, -0.17, -0.17], [np.pi + 0.17, 0.17, 0.17]])
+    for joint, at in (("panda_joint4", (-2.1, -1.1)), ("panda_joint1", (-0.5, 0.5))):
+        with pytest.raises(InputError, match=r"would take some \de[+]\d\d cells"):
+            hf.certify(reach_claim(panda, [0.5, 0, 0.5], 0.1, rpy=rpy, locked={joint: at}))
+
+
+def test_bounds_and_distances(panda, monkeypatch):
+    monkeypatch.setattr(halving, "MOST_LEAVES", 16)
+    ready = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
+    box = np.column_stack([ready - 0.1, ready + 0.1])
+    with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a threshold farther from 0.01"):
+        hf.certify(ceiling_claim(panda, box, 0.0125))
+    monkeypatch.setattr(halving, "MOST_LEAVES", 0)
+    with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a narrower interval"):
+        hf.certify(out_of_reach_claim(panda, [0.5, 0, -0.3], 0.015, locked={1: (-0.35, -0.26)}))
