@@ -67,9 +67,9 @@ class Component:
 
     @property
     def ranges(self) -> Array:
-        """(n,) measure of the values that each joint takes on the curve: rad, at most a whole turn, or m.
+        """(n,) length of the interval of values that each joint takes on the curve, rad or m; 2 pi of a joint that winds.
 
-        A joint that winds takes 2 pi. The values of the others are an interval; its ends lie on parabolas through three points.
+        Of a revolute joint 2 pi or more is every angle. The ends lie on parabolas through three points.
         """
         wide = np.array([_peak(x, self.closed) + _peak(-x, self.closed) for x in self.q.T])
         return np.where(self.winding != 0, 2 * np.pi, wide)
