@@ -35,7 +35,7 @@ def workloads():
 def main() -> None:
     try:
         kernels.set_backend("cuda")
-    except hf.KernelError as error:
+    except hf.HoldfastError as error:
         sys.exit(f"no table: {error}")
     on_gpu = workloads()
     kernels.set_backend(None)
