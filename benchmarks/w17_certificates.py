@@ -17,6 +17,7 @@ sys.path.append(str(Path(__file__).parents[1] / "tests" / "certificates"))  # wh
 CENTRE = [0.485, 0.0, 0.53]
 RANGES = [(-45, 45), (-60, 45), (-45, 45), (-118, -103.5), (-90, 90), (50, 145), (-90, 90)]  # deg, of the joints of a Panda
 POSES, ROTATION = [0.968, 0.0, 0.025], 174  # m; deg about y
+START = [-35, -45, 51, -111, -46, 84, -3]  # deg, of a Panda: where its paths begin
 NINE = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 40), (16, 56), (-40, 40)]  # deg
 
 
@@ -85,6 +86,44 @@ def poses(chosen: argparse.Namespace) -> str:
     return harness.table("W17: poses with a fixed rotation, PA10 with nine joints", head, rows)
 
 
+def paths(chosen: argparse.Namespace) -> str:
+    """Straight tool paths of a Panda, finished after a lock at any instant."""
+    import holdfast as hf
+
+    arm, rows = hf.arms.load("panda"), []
+    for name, move in (("0.1 m along x", [0.1, 0, 0]), ("0.3 m down", [0, 0, -0.3])):
+        knots = straight(arm, np.deg2rad(START), move, 10 if chosen.quick else 50)
+        for tube in (0.0, 0.0005):
+            harness.progress(f"path {name}, tube {tube} m")
+            found = hf.certify(hf.certificates.path_claim(arm, knots, tube=tube), time_limit=30 if chosen.quick else 300)
+            with tempfile.TemporaryDirectory() as folder:
+                file = found.write(Path(folder) / "path.certificate")
+                began = time.process_time()
+                check = hf.check_certificate(file)
+                each = 1e3 * (time.process_time() - began) / max(check.leaves, 1)
+                size = file.stat().st_size / max(check.leaves, 1)
+            for part, verdict in zip(found.parts, check.parts, strict=True):
+                share = [f"{float(part.proved):.4f}", f"{part.leaves:,}", str(verdict.rejected), f"{part.seconds:.1f}"]
+                rows.append([f"{name}, tube {1000 * tube} mm", arm.joint_names[part.joint], *share])
+            share = [f"{float(found.proved):.4f}", f"{found.leaves:,}", str(check.rejected)]
+            rows.append(["", "all", *share, f"check {each:.2f} ms and {size:.0f} bytes a cell"])
+    head = ["path", "lock of", "lock instants proved", "cells", "rejected", "search, s"]
+    return harness.table("W17: tool paths of a Panda, finished by one continuous motion", head, rows)
+
+
+def straight(arm, start, move, count):
+    """Knots whose tools lie on a line, turned as at the start."""
+    q, found, first = np.array(start), [np.array(start)], arm.forward_kinematics(start)
+    for k in range(1, count + 1):
+        for _ in range(6):
+            now = arm.forward_kinematics(q)
+            turn = sum(np.cross(now[:3, i], first[:3, i]) for i in range(3)) / 2
+            away = first[:3, 3] + np.array(move) * k / count - now[:3, 3]
+            q = q + np.linalg.pinv(arm.jacobian(q)) @ np.append(away, turn)
+        found.append(q)
+    return np.array(found)
+
+
 def widths(chosen: argparse.Namespace) -> str:
     """The widest box, equal along all axes and without limits, that one configuration proves, by both."""
     from rivals import half_widths
@@ -107,7 +146,7 @@ def widths(chosen: argparse.Namespace) -> str:
 
 def main() -> None:
     chosen = harness.options(__doc__, rounds=1)
-    for part in (proofs, poses, widths):
+    for part in (proofs, poses, paths, widths):
         print(part(chosen), flush=True)
 
 

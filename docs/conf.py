@@ -3,7 +3,6 @@
 import gc
 import os
 import sys
-import zipfile
 from pathlib import Path
 
 import holdfast
@@ -32,6 +31,7 @@ extensions = [
     "moved",
     "sidebar",
     "wholes",
+    "verifier_archive",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
@@ -106,12 +106,6 @@ html_theme_options = {
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "substitution"]
 myst_heading_anchors = 3
 math_number_all = False
-
-# The verifier of certificates and the folder beside it, as one download.
-_certificates = HERE.parent / "src" / "holdfast" / "certificates"
-with zipfile.ZipFile(HERE / "verifier.zip", "w", zipfile.ZIP_DEFLATED) as _archive:
-    for _file in (_certificates / "verifier.py", *sorted(_certificates.glob("verified/*.py"))):
-        _archive.write(_file, _file.relative_to(_certificates))
 
 # The picture of the first page is there only once somebody has made it.
 _picture = HERE / "_static" / "assess-pa10.png"

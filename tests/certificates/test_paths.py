@@ -252,7 +252,7 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     """Against differences of what the file says, by scipy's rotations."""
     driven = Driven(moved.write(tmp_path / "a.certificate"))
-    faults = verifier.paths.Faults(moved.document)
+    faults = verifier.motions.Faults(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
     balls = verifier.Balls
     with verifier.flint.ctx.workprec(64):
@@ -280,7 +280,7 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
 def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     """The search's bound, and so the verifier's lengths, at random points, with the verifier's second derivatives."""
     proof = hf.certify(path_claim(panda, START + np.array([[0.0], [0.01]]), failures=[1]))
-    faults, chain = verifier.paths.Faults(proof.document), Chain.of(panda)
+    faults, chain = verifier.motions.Faults(proof.document), Chain.of(panda)
     assert (faults.lengths >= chain.lengths).all()
     assert faults.lengths == pytest.approx(chain.lengths, abs=1e-9)
     following = Following(chain, proof.claim.knots, 6, [1], np.empty(0), np.column_stack([panda.lower, panda.upper]))

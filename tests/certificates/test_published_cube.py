@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 import venv
 from pathlib import Path
 
 import flint
 import numpy as np
 import pytest
-import written
 
 from holdfast.certificates import documents, verifier
 
 ROOT = Path(__file__).parents[2]
+sys.path.append(str(ROOT / "docs" / "_ext"))
+from verifier_archive import zipped  # noqa: E402
+
 CUBE = ROOT / "docs" / "panda-cube.zip"
 
 
@@ -32,10 +35,9 @@ def bare(tmp_path_factory):
 
 
 def test_one_command_checks_it(bare, tmp_path):
-    written.alone(tmp_path)
-    done = subprocess.run(
-        [bare, "verifier.py", CUBE, "--sample", "10"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    archive = zipped(tmp_path / "verifier.zip")
+    assert subprocess.run([bare, "-c", "import holdfast"], capture_output=True, check=False).returncode == 1
+    done = subprocess.run([bare, archive, CUBE, "--sample", "10"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert "Leaves accepted: 80, rejected: 0" in done.stdout
     assert "sampled, not verified" in done.stdout

@@ -107,6 +107,7 @@ def test_the_motion_follows_the_path_and_survives_what_it_says(narrow):
     assert given.bound is given.gap is given.found is None
 
 
+@pytest.mark.interpreted
 def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow):
     """Where a lock leads into a ball the path is not finished: closed form, and distances in the plane."""
     machine, path, free = narrow
@@ -137,7 +138,7 @@ def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow)
 
     assert room(best.q).min() >= -1e-9
     wrong = total = barred = 0
-    for t in range(samples):
+    for t in range(0, samples, 2):
         assert room(best.found.nodes[t]).min() >= -1e-9
         for q, got in zip(best.found.nodes[t], best.found.survives[t], strict=True):
             least = np.array([finished(q, k, points[t:]) for k in range(3)])
@@ -145,8 +146,8 @@ def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow)
             wrong += int((got[sure] != (least[sure] > 0)).sum())
             barred += sum(survives(machine, q, k, points[t:]) and least[k] < 0 for k in range(3))
             total += 3
-    assert total > 300
-    assert barred > 20
+    assert total > 150
+    assert barred > 10
     assert wrong <= 0.001 * total  # a branch may end between two samples and be met again behind
     assert best.survival < free.survival
 
@@ -216,12 +217,12 @@ def test_other_motions_beside_it(narrow):
     assert not least.curve[off].any()
     assert all(other.survival <= got.bound + 1e-9 for other in got.beside)
     free = arm()
-    got = hf.endure(free, path, samples=21, spacing=0.1, compare=["least-norm"])
+    got = hf.endure(free, path, samples=11, spacing=0.2, compare=["least-norm"])
     index = hf.indices.relative_manipulability(free, "planar")
-    by_hand = hf.follow(free, path, maximise=index, method="none", samples=21, task="planar")
+    by_hand = hf.follow(free, path, maximise=index, method="none", samples=11, task="planar")
     (least,) = got.beside
     assert least.off == 0
-    assert least.survival == pytest.approx(hf.endurance_of(free, by_hand, path, samples=21).survival)
+    assert least.survival == pytest.approx(hf.endurance_of(free, by_hand, path, samples=11).survival)
     assert least.survival <= got.survival
     with pytest.raises(InputError, match="least-norm"):
         hf.endure(machine, path, samples=21, compare=["fastest"])
@@ -256,17 +257,16 @@ def test_the_velocity_that_is_lost_is_that_of_differences(narrow):
     assert best.jump.most_linear >= best.jump.linear[k, joint]
 
 
-@pytest.mark.parametrize(("name", "elbow"), [("panda", 0.15), ("iiwa14", 0.0)])
-def test_an_elbow_is_set_by_the_pose(name, elbow):
-    """Between a spherical shoulder and wrist it is the angle of their distance; the wrist of a Panda has an offset."""
-    machine = hf.arms.load(name)
+def test_an_elbow_is_set_by_the_pose():
+    """Between a spherical shoulder and wrist it is the angle of their distance."""
+    machine = hf.arms.load("iiwa14")
     begin = np.eye(4)
     begin[:3, :3] = np.diag([1.0, -1.0, -1.0])
     begin[:3, 3] = [0.45, -0.5, 0.35]
     end = begin.copy()
     end[1, 3] = 0.5
-    best = hf.endure(machine, TimedPath(line(begin, end), Constant(10.0)), samples=26, spacing=0.15)
-    assert best.found.moved[3] == pytest.approx(elbow, abs=0.01)
+    best = hf.endure(machine, TimedPath(line(begin, end), Constant(10.0)), samples=16, spacing=0.15)
+    assert best.found.moved[3] == pytest.approx(0.0, abs=1e-6)
     assert best.by_joint[machine.joint_names[3]] <= 0.05
     assert 0.5 < best.survival <= best.bound + 1e-9 < 0.87
     assert f"no self-motion moves {machine.joint_names[3]}" in " ".join(best.describe())

@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from holdfast.certificates.target_boxes.jobs import Found
 from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tool_paths import forms
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.march import Slab
+from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tree import PROVED
 
 Document = dict[str, Any]
@@ -114,18 +114,7 @@ def structural_zero(claim: StructuralZeroClaim, snapped: list[Document], points:
     return _signed(_common("structural-zero", claim, 0.0, len(points)) | kept)
 
 
-class _Locked(Protocol):
-    """What the certificate of a path needs of each lock."""
-
-    joint: int
-    followers: tuple[int, ...]
-    slabs: tuple[Slab, ...]
-    proved: Fraction
-    nodes: int
-    seconds: float
-
-
-def path(claim: PathClaim, parts: Sequence[_Locked]) -> Document:
+def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
     """The certificate of slabs of lock instants, of all locks; it has the volumes of the worst."""
     locks = []
     for part in parts:

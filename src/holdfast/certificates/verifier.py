@@ -50,7 +50,8 @@ except ImportError:  # told when a file is to be checked: the sentence of a clai
     flint = None
 
 if TYPE_CHECKING or __package__:
-    from holdfast.certificates.verified import paths
+    from holdfast.certificates.verified import motions as motions
+    from holdfast.certificates.verified import paths as paths
     from holdfast.certificates.verified.balls import LEAST, UP, Balls, above, crossed, defect, joined, length, stacked, times
     from holdfast.certificates.verified.forms import (
         COMMON,
@@ -68,20 +69,12 @@ if TYPE_CHECKING or __package__:
         spans,
         within,
     )
-    from holdfast.certificates.verified.forms import (
-        FOR_PEOPLE as FOR_PEOPLE,
-    )
-    from holdfast.certificates.verified.forms import (
-        Refused as Refused,
-    )
-    from holdfast.certificates.verified.forms import (
-        digest as digest,
-    )
-    from holdfast.certificates.verified.forms import (
-        unpacked as unpacked,
-    )
+    from holdfast.certificates.verified.forms import FOR_PEOPLE as FOR_PEOPLE
+    from holdfast.certificates.verified.forms import Refused as Refused
+    from holdfast.certificates.verified.forms import digest as digest
+    from holdfast.certificates.verified.forms import unpacked as unpacked
 else:  # run as a file: the folder lies beside it
-    from verified import paths
+    from verified import motions, paths
     from verified.balls import *  # noqa: F403
     from verified.forms import *  # noqa: F403
 
@@ -999,7 +992,7 @@ def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Cal
 
 
 def _path(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
-    began, faults, every = time.perf_counter(), paths.Faults(document), list(paths.slabs(document))
+    began, faults, every = time.perf_counter(), motions.Faults(document), list(paths.slabs(document))
     order, room, picked = list(range(len(every))), sample, set[int]()
     random.SystemRandom().shuffle(order)
     while order and (room is None or room > 0):

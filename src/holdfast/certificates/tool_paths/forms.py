@@ -148,7 +148,7 @@ class Following:
         s = half[:, -m:]
         for k in range(_ROUNDS + _TIGHTER):
             e, far, turned = self._excess(error, *given, half, bend)
-            closed = ((_MARGIN * e + _LEAST <= s) & (s < 1)).all(axis=1)
+            closed = np.asarray(((_MARGIN * e + _LEAST <= s) & (s < 1)).all(axis=1))
             s[:] = np.where(closed[:, None], s if k < _ROUNDS else _MARGIN * e + 1.01 * _LEAST, 1.05 * e + 2 * _LEAST)
             np.clip(np.nan_to_num(s, nan=_NEVER), 0, _NEVER, out=s)
         only, one = np.zeros_like(s), np.zeros(len(q), dtype=bool)
@@ -189,7 +189,7 @@ class Following:
         q[:, self.free] += before.follow[:, :, 1] * middle[:, None]
         return self.placed(q, cells)
 
-    def comes_to_the_end(self, locks: Ints) -> Flags:
+    def finishes(self, locks: Ints) -> Flags:
         """Whether Newton's method follows the path from lock instants (N,) to its end, within the limits; a look ahead."""
         end = (len(self.knots) - 1) * SEGMENT
         held = self.healthy(2 * locks, np.maximum(locks, 1))[0]
@@ -298,14 +298,15 @@ def _twice(axes: Array, columns: Array, moves: Array) -> Array:
 
 def _axial(turn: Array) -> Array:
     """(N, 3) the axial vectors of rotations."""
-    return np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1) / 2
+    twice = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1)
+    return np.asarray(twice / 2)
 
 
 def _onto(turn: Array) -> Array:
     """(N, 3, 3) what takes a to the axial vector of [a] R."""
-    return (np.trace(turn, axis1=1, axis2=2)[:, None, None] * np.eye(3) - turn) / 2
+    return np.asarray((np.trace(turn, axis1=1, axis2=2)[:, None, None] * np.eye(3) - turn) / 2)
 
 
 def _solved(matrix: Array, right: Array) -> Array:
     """With a matrix that is nearly singular, something large."""
-    return np.linalg.solve(matrix + 1e-14 * np.eye(matrix.shape[-1]), right)
+    return np.asarray(np.linalg.solve(matrix + 1e-14 * np.eye(matrix.shape[-1]), right))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from fractions import Fraction
 from itertools import pairwise
 from time import monotonic
 
@@ -57,6 +58,39 @@ class Slab:
     def lengthened(self) -> None:
         """The next step: up to twice as long, but such that cells are halves of halves of a segment."""
         self.step = min(2 * self.step, self.at & -self.at, SEGMENT)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LockedPath:
+    """What was found for the lock of one joint.
+
+    Attributes:
+        joint: Index of it.
+        followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
+        slabs: Intervals of lock instants that are proved, in order, each with its cells.
+        proved: Exact part of the lock instants.
+        nodes: Cells that were looked at.
+        finished: False if the search was stopped.
+        seconds: Measured.
+    """
+
+    joint: int
+    followers: tuple[int, ...]
+    slabs: tuple[Slab, ...]
+    proved: Fraction
+    nodes: int
+    finished: bool
+    seconds: float
+
+    @property
+    def spans(self) -> list[tuple[int, int]]:
+        """Proved intervals of lock instants."""
+        return [(slab.begin, slab.stop) for slab in self.slabs]
+
+    @property
+    def leaves(self) -> int:
+        """Cells of proved slabs."""
+        return sum(len(slab.ends) for slab in self.slabs)
 
 
 class March:
@@ -157,10 +191,10 @@ class March:
             self._failed.append(slab)
 
     def _halved(self) -> None:
-        """Those of slabs that were given up in which some lock instant, alone, comes to the end."""
+        """Those of slabs that were given up in which some lock instant, alone, is followed to the end."""
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
-        some = self.following.comes_to_the_end(locks.ravel()).reshape(-1, 3).any(axis=1)
+        some = np.asarray(self.following.finishes(locks.ravel())).reshape(-1, 3).any(axis=1)
         for slab, (begin, middle, stop), good in zip(slabs, locks.tolist(), some, strict=True):
             if not good:
                 self.closed += stop - begin

@@ -19,7 +19,7 @@ from holdfast.certificates.proof import early, written
 from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import Following
-from holdfast.certificates.tool_paths.march import March, Slab
+from holdfast.certificates.tool_paths.march import LockedPath, March
 from holdfast.certificates.tree import SearchState, Tell
 from holdfast.result import Result
 
@@ -27,39 +27,6 @@ Array = NDArray[np.float64]
 Span = tuple[int, int]
 
 _SLICE = 2.0  # s on a lock, then on the next, so that one that is stopped has something of each
-
-
-@dataclass(frozen=True, kw_only=True)
-class LockedPath:
-    """What was found for the lock of one joint.
-
-    Attributes:
-        joint: Index of it.
-        followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
-        slabs: Intervals of lock instants that are proved, in order, each with its cells.
-        proved: Exact part of the lock instants.
-        nodes: Cells that were looked at.
-        finished: False if the search was stopped.
-        seconds: Measured.
-    """
-
-    joint: int
-    followers: tuple[int, ...]
-    slabs: tuple[Slab, ...]
-    proved: Fraction
-    nodes: int
-    finished: bool
-    seconds: float
-
-    @property
-    def spans(self) -> list[Span]:
-        """Proved intervals of lock instants."""
-        return [(slab.begin, slab.stop) for slab in self.slabs]
-
-    @property
-    def leaves(self) -> int:
-        """Cells of proved slabs."""
-        return sum(len(slab.ends) for slab in self.slabs)
 
 
 @dataclass(frozen=True, kw_only=True)

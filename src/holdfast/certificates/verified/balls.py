@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .forms import need, real
 
 try:
-    import flint
+    import flint as flint
 except ImportError:  # told when a file is to be checked: the sentence of a claim needs no balls
     flint = None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,15 +24,15 @@ _ACROSS = 4  # pictures in a row
 
 def to_dict(found: PathProof) -> dict[str, Any]:
     """Parts of the lock instants as exact fractions and as numbers, of all locks and of each; cells, seconds."""
-    parts = {}
+    parts: dict[str, Any] = {}
     for part in found.parts:
         gaps = [[begin / SEGMENT, stop / SEGMENT] for begin, stop in found.gaps(part)]
         counts = {"leaves": part.leaves, "nodes": part.nodes, "finished": part.finished, "seconds": part.seconds}
         shares = {"proved": _share(part.proved), "undecided": _share(1 - part.proved)}
         followers = [found.claim.arm.joint_names[k] for k in part.followers]
         parts[_name(found, part)] = shares | {"undecided_between_knots": gaps, "followers": followers} | counts
-    shares = {"proved": found.proved, "undecided": found.undecided, "tolerant": found.tolerant}
-    said = {"claim": found.document["claim"], **{key: _share(part) for key, part in shares.items()}}
+    of_all = {"proved": found.proved, "undecided": found.undecided, "tolerant": found.tolerant}
+    said = {"claim": found.document["claim"], **{key: _share(share) for key, share in of_all.items()}}
     counts = {"leaves": found.leaves, "nodes": found.nodes, "finished": found.finished, "verified": False}
     return said | counts | {"deviation": found.claim.deviation, "seconds": found.seconds, "parts": parts}
 
@@ -86,7 +87,10 @@ def story(found: PathProof) -> Story:
     """How much is proved, and what that says and does not."""
     claim, share = found.claim, per_cent(found.tolerant).replace(" %", "\N{NO-BREAK SPACE}%")
     tube = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
+    whole = [_name(found, part) for part in found.parts if part.proved == 1]
     answer = "Nothing is proved for all locks: something is undecided at every instant."
+    if whole:
+        answer = f"At no instant is it proved for all locks, but at every instant for those of {', '.join(whole)}."
     if found.tolerant:
         rest = "nothing is undecided" if found.tolerant == 1 else "the rest is undecided for some lock"
         answer = (
@@ -164,6 +168,6 @@ def _panel(axes: Axes, found: PathProof, part: LockedPath) -> None:
     axes.add_collection(PolyCollection(left, facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3))
     axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
     axes.plot([0, end], [0, end], color=INK, linewidth=0.8)
-    axes.set(xlim=(0, end), ylim=(0, end), title=f"{_name(found, part)}: {per_cent(part.proved)}")
+    axes.set(xlim=(0, end), ylim=(0, end), title=f"{_name(found, part)}: {math.floor(1000 * part.proved) / 10:g} %")
     axes.set_aspect("equal")
     axes.grid(visible=False)
