@@ -23,6 +23,7 @@ MODULES = [
     "holdfast.control",
     "holdfast.convergence",
     "holdfast.designs",
+    "holdfast.diagnosis",
     "holdfast.faults",
     "holdfast.indices",
     "holdfast.indices.susceptibility",

@@ -4,6 +4,7 @@ from holdfast import ceilings as ceilings
 from holdfast import cell as cell
 from holdfast import certificates as certificates
 from holdfast import control as control
+from holdfast import diagnosis as diagnosis
 from holdfast import faults as faults
 from holdfast import indices as indices
 from holdfast import keep as keep

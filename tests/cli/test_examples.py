@@ -24,6 +24,7 @@ FILES = {
     "path.yaml": "line: {from: {xyz: [0.45, -0.1, 0.5]}, to: {xyz: [0.45, 0.1, 0.5]}}\ntiming: {duration: 2}\n",
     "line.yaml": "angles: deg\nline: {from: {xyz: [0.45, -0.1, 0.4], urdf_rpy: [180, 0, 0]}, to: {xyz: [0.45, 0.1, 0.4]}}\n"
     "timing: {duration: 2}\n",
+    "motion.csv": "joint1_rad,joint2_rad,joint3_rad\n0.3,0.8,1.1\n0.35,0.77,1.15\n",
     "bench.yaml": "objects: {table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.6, 0, -0.02]}}}\n",
     "faults.yaml": "faults: [{kind: locked, onset: {uniform: [0.3, 1.5]}}]\n",
     "cell.yaml": "box: {center: [0.5, 0, 0.5], size: 0.1, rpy_center: [180, 0, 0], rpy_size: 10}\nangles: deg\n",
@@ -36,6 +37,11 @@ FIRST = {  # commands before
     "study run": [STUDY],
     **{f"study {of}": DONE for of in ("status", "verify", "report")},
     "study merge": [STUDY, *(f"study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
+    "calibrate": ["rehearse panda --records 2 --duration 1 --out healthy"],
+    "diagnose": [
+        "rehearse panda --records 2 --duration 1 --out healthy",
+        "calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json",
+    ],
     **{f"certificate {of}": ["certify reach planar-3r --box '1.5 0.5' --size 0.2"] for of in ("check", "show")},
     **{f"teleop {of}": [EXPERIMENT] for of in ("replay", "verify", "backup", "export", "subjects")},
 }
@@ -51,6 +57,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "follow": "--samples 11",
     "endure": "--samples 5 --spacing 0.3",
     "recover": "--samples 0",
+    "rehearse": "--records 1 --duration 0.2",
     "free-swing": "--duration 0.2",
     "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",
     "teleop run": "--operators 2",

@@ -1,0 +1,43 @@
+"""``holdfast rehearse``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, SeedOption, TipOption, read_arm
+from holdfast.files.output import made
+from holdfast.present.printing import console, print_written
+
+
+def command(
+    arm: ArmArgument,
+    out: Annotated[Path, typer.Option("--out", help="Folder of the records.", show_default=False)],
+    records: Annotated[int, typer.Option("--records", min=1, help="So many, each with a motion of its own.")] = 1,
+    duration: Annotated[float, typer.Option("--duration", help="Of each, s.")] = 6.0,
+    faults: Annotated[
+        Path | None, typer.Option("--faults", help="Faults file (YAML); record k is episode k.", show_default=False)
+    ] = None,
+    body: Annotated[int, typer.Option("--body", help="Which robot: records of one have one.")] = 0,
+    seed: SeedOption = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+) -> None:
+    """Simulate records of an arm with servos and noise, healthy or with faults, to try calibrate and diagnose on.
+
+    Masses and friction of a robot are off by up to 20 % of the arm's model (needs the extra 'physics').
+
+    Example: holdfast rehearse panda --records 2 --out healthy
+    """
+    model = read_arm(arm, base, tip, hold)
+    model_of = None if faults is None else hf.faults.load(faults)
+    files, folder = [], made(out)
+    for k in range(records):
+        events = () if model_of is None else model_of.draw(model, episode=k, horizon=duration)
+        record = hf.diagnosis.rehearse(model, duration, faults=events, seed=seed + k, body=body)
+        files.append(record.save(folder / f"{k:06d}.npz"))
+    print_written(console(), files)

@@ -1,0 +1,216 @@
+"""Bounds of the residuals of a healthy arm, calibrated from its records, with the rate of false alarms that follows."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.diagnosis.signals import signals_of
+from holdfast.errors import InputError
+from holdfast.faults.log import Log
+from holdfast.files import reading
+from holdfast.files.output import replaced
+from holdfast.notice import each, says
+from holdfast.result import Result
+
+Array = NDArray[np.float64]
+
+FACTOR = 1.5  # on the largest healthy residual
+OFF_RATE = 0.01  # of the rate: so much may a record differ from its bounds
+_HOUR = 3600.0
+_FORMAT = 1
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Bounds(Result):
+    """How large residuals of a healthy arm were.
+
+    Attributes:
+        fingerprint: Of the arm.
+        joints: Names.
+        rate: Samples per second of the records.
+        torque: (n,) largest residual torque, N m and N; infinite without torques.
+        tracking: (n,) largest distance of a joint from its reference, rad and m.
+        position: Largest distance of the measured tool from the joints' one, m; infinite where it is not measured.
+        angle: Likewise, rad.
+        coulomb: (n,) dry friction that is taken off, N m and N.
+        viscous: (n,) viscous friction that is taken off, N m s/rad and N s/m.
+        factor: What the bounds are multiplied by.
+        speed: (n,) largest rate of the references, rad/s and m/s: faster motion was not calibrated.
+        hours: Of healthy motion.
+        logs: Records.
+        alarms: False ones, each record watched with the bounds of all others; None with one record alone.
+    """
+
+    fingerprint: str
+    joints: tuple[str, ...]
+    rate: float
+    torque: Array
+    tracking: Array
+    position: float
+    angle: float
+    coulomb: Array
+    viscous: Array
+    factor: float
+    speed: Array
+    hours: float
+    logs: int
+    alarms: int | None
+
+    def false_alarms(self) -> tuple[float, float] | None:
+        """False alarms per hour, and the upper limit of their rate with a confidence of 95 %; None if it was not counted.
+
+        The limit is ``chi2_0.95(2 k + 2) / (2 H)`` for k alarms in H hours: 3.0/H for none. It is of this arm and this kind of
+        motion, and no lower rate may be claimed.
+
+        Source: the exact limit of a Poisson rate, Garwood 1936.
+        """
+        if self.alarms is None:
+            return None
+        from scipy.stats import chi2
+
+        return self.alarms / self.hours, float(chi2.ppf(0.95, 2 * self.alarms + 2) / (2 * self.hours))
+
+    def describe(self) -> list[str]:
+        """The hours, the rate of false alarms, and what is watched."""
+        lines = [
+            f"bounds of {self.logs} record{'s' * (self.logs != 1)}, {self.hours:.3g} h of healthy motion at {self.rate:.4g} Hz"
+        ]
+        told = self.false_alarms()
+        if told is None:
+            lines.append("false alarms: unknown; calibrate with two records or more")
+        else:
+            lines.append(
+                f"false alarms: {self.alarms} where each record is watched with the bounds of the others; with 95 % confidence "
+                f"fewer than {told[1]:.3g} an hour, for this arm and motion as it was recorded"
+            )
+        missing = [] if np.isfinite(self.torque).all() else ["torques"]
+        missing += [] if np.isfinite(self.position) else ["the measured tool pose"]
+        return lines + [f"not watched: {what} (not in the records)" for what in missing]
+
+    def to_json(self, file: str | Path) -> Path:
+        """Write the file that :func:`holdfast.diagnosis.load` reads.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        data = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(self).items()}
+        text = json.dumps({"format": _FORMAT, **data}, indent=2).replace("Infinity", "null")
+        replaced(Path(file), text + "\n", "bounds")
+        return Path(file)
+
+    def require(self, arm: Arm, rate: float) -> None:
+        """Refuse another arm or another rate.
+
+        Raises:
+            InputError: It is another one.
+        """
+        if arm.fingerprint != self.fingerprint:
+            raise InputError(f"the bounds are of another arm than '{arm.name}'; calibrate with records of this one")
+        if abs(rate / self.rate - 1) > OFF_RATE:
+            raise InputError(
+                f"the record has {rate:.4g} samples a second and the bounds {self.rate:.4g}; use records of one rate"
+            )
+
+
+def load(file: str | Path) -> Bounds:
+    """Bounds from a file of :meth:`Bounds.to_json`.
+
+    Raises:
+        InputError: Unreadable, or no such file.
+    """
+    with reading.guarded(f"bounds '{file}'", "give the file that calibrate wrote"):
+        text = reading.raw(file).decode("utf-8", "replace")
+    try:
+        data = json.loads(text)
+        if data.pop("format") != _FORMAT:
+            raise ValueError
+        none = {None: np.inf}
+        for name in ("torque", "tracking", "coulomb", "viscous", "speed"):
+            data[name] = np.array([none.get(x, x) for x in data[name]], dtype=np.float64)
+        for name in ("position", "angle"):
+            data[name] = none.get(data[name], data[name])
+        return Bounds(**{**data, "joints": tuple(data["joints"])})
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InputError(f"bounds '{file}': it is no file of bounds; make one with holdfast calibrate") from error
+
+
+@checked
+@says("calibrating")
+def calibrate(
+    arm: Arm,
+    logs: Sequence[Log],
+    *,
+    factor: float = FACTOR,
+    coulomb: ArrayLike | None = None,
+    viscous: ArrayLike | None = None,
+) -> Bounds:
+    """Bounds from records of a healthy arm, and how often they would have alarmed.
+
+    The bound of each residual is the largest that any record has, times ``factor``. For the false alarms each record is
+    watched with the bounds of all others.
+
+    Args:
+        arm: The arm, with inertial data if torques were recorded.
+        logs: Records of healthy motion, of the kind that is to be watched.
+        factor: Above or equal to 1.
+        coulomb: (n,) dry friction of the joints, N m and N, if it is known.
+        viscous: (n,) viscous friction, N m s/rad and N s/m; the arm's own if not given.
+
+    Raises:
+        InputError: No records, records of another arm or of several rates, or that have the measured joints as references; or a
+            factor below 1.
+        ArmError: Torques are there, and the arm's inertial data are missing or impossible.
+
+    Source: derived here. That residuals are bounded rather than modelled as noise is measured: they are friction, inertia and
+    gravity errors, correlated over seconds, for which tests designed for independent noise alarm all the time.
+    """
+    if not logs:
+        raise InputError("there is no record to calibrate with; give records of healthy motion")
+    if not factor >= 1:
+        raise InputError(f"factor is {factor:g}; it must be 1 or more")
+    dry = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
+    wet = np.array([j.friction for j in arm.joints]) if viscous is None else np.broadcast_to(np.asarray(viscous), (arm.n,))
+    rate, found = logs[0].rate, []
+    for log in each("records", logs):
+        if abs(log.rate / rate - 1) > OFF_RATE:
+            raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
+        found.append(signals_of(arm, log, coulomb=dry, viscous=wet))
+    largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
+    same = np.flatnonzero(largest[1].max(axis=0) == 0)
+    if same.size:
+        raise InputError(
+            f"'{arm.joint_names[same[0]]}' never departs from its reference in the records; q_ref must be what the servos "
+            "were to follow, not what the sensors told"
+        )
+    alarms: int | None = None
+    if len(logs) > 1:
+        alarms = 0
+        for k, signals in enumerate(found):
+            others = [factor * np.delete(x, k, axis=0).max(axis=0) for x in largest]
+            alarms += signals.scaled(*others).alarm is not None
+    bounds = [factor * x.max(axis=0) for x in largest]
+    hours = sum(log.duration for log in logs) / _HOUR
+    return Bounds(
+        fingerprint=arm.fingerprint,
+        joints=arm.joint_names,
+        rate=rate,
+        torque=bounds[0],
+        tracking=bounds[1],
+        position=float(bounds[2]),
+        angle=float(bounds[3]),
+        coulomb=np.array(dry),
+        viscous=np.array(wet, dtype=np.float64),
+        factor=float(factor),
+        speed=np.max([np.abs(np.diff(log.q_ref, axis=0) * rate).max(axis=0) for log in logs], axis=0),
+        hours=hours,
+        logs=len(logs),
+        alarms=alarms,
+    )

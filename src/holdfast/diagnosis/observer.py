@@ -1,0 +1,86 @@
+"""The momentum observer: the torque on each joint that the model of the arm does not know.
+
+With ``p = M(q) v`` and ``dp/dt = tau + dT/dq - g - F(v) + tau_x`` it follows the momentum, and what it must add is the
+residual: ``s' = tau + dT/dq - g - F(v) + r``, ``r = K_O (p - s)``. The jolt of a joint that locks is on its own row alone.
+
+Source: De Luca et al. 2006; Haddadin, De Luca and Albu-Schaeffer, IEEE T-RO 33(6), 2017. That rate and torque go through the
+same filter is ours: else acceleration shows as torque.
+"""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import statics
+from holdfast.arm.dynamics import inertial_torques
+from holdfast.arm.kinematics import joint_symbols
+from holdfast.arm.machine import Machine
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.recall import recalled
+
+Array = NDArray[np.float64]
+
+GAIN = 40.0  # 1/s, K_O
+BAND = 2 * np.pi * 20  # rad/s, of the filter on rates and torques
+SLIP = 0.02  # rad/s or m/s: dry friction has turned its sign within about so much
+
+
+@recalled
+def momentum_kernel(arm: Machine) -> Kernel:
+    """``(q, v) -> p, dT/dq, g``, each (n,): momentum, what kinetic energy gives, gravity torques; rotors included."""
+    q, v = joint_symbols(arm), ca.SX.sym("v", arm.n)
+    p = inertial_torques(arm, q, ca.SX.zeros(arm.n), v)
+    energy = ca.dot(p, v) / 2
+    gravity = statics.gravity_torques(arm, statics.composite(arm, q))
+    return Kernel("momentum", [q, v], [ca.densify(x) for x in (p, ca.gradient(energy, q), gravity)])
+
+
+def friction_torque(v: Array, coulomb: Array, viscous: Array) -> Array:
+    """What friction is taken for, N m or N: dry of ``coulomb`` and ``viscous`` times the rate, (..., n)."""
+    return np.asarray(coulomb * np.tanh(v / SLIP) + viscous * v)
+
+
+def low_passed(signal: Array, dt: float, band: float, initial: Array) -> Array:
+    """A signal (T, n) through ``y += min(1, band dt) (x - y)`` from ``initial`` (n,) on."""
+    from scipy.signal import lfilter
+
+    a = min(1.0, band * dt)
+    out, _ = lfilter([a], [1, a - 1], signal, axis=0, zi=(1 - a) * initial[None])
+    return np.asarray(out)
+
+
+def filtered_rates(q: Array, dt: float) -> Array:
+    """(T, n) rates of joint values (T, n), 0 at first."""
+    return low_passed(np.diff(q, axis=0, prepend=q[:1]) / dt, dt, BAND, np.zeros(q.shape[1]))
+
+
+def residuals(kernel: Kernel, q: Array, tau: Array, *, dt: float, coulomb: Array, viscous: Array) -> tuple[Array, Array, Array]:
+    """Residuals, filtered rates and gravity torques of a record, (T, n) each.
+
+    The observer is linear in what the kernel gives, and so a filter: ``r_k = (1 - K dt) r_{k-1} + K (p_k - p_{k-1} - dt u_k)``
+    with ``u = tau + dT/dq - g - F``.
+
+    Args:
+        kernel: Of :func:`momentum_kernel`.
+        q: (T, n) rad and m.
+        tau: (T, n) N m and N.
+        dt: s.
+        coulomb: (n,) dry friction, N m and N.
+        viscous: (n,) N m s/rad and N s/m.
+    """
+    from scipy.signal import lfilter
+
+    v, torque = filtered_rates(q, dt), low_passed(tau, dt, BAND, tau[0])
+    p, energy, gravity = kernel(q, v)
+    change = np.diff(p, axis=0, prepend=p[:1]) - dt * (torque + energy - gravity - friction_torque(v, coulomb, viscous))
+    change[0] = 0.0  # it begins with r = 0
+    return np.asarray(lfilter([GAIN], [1, GAIN * dt - 1], change, axis=0)), v, gravity
+
+
+def excess(z: Array, dt: float | Array) -> Array:
+    """Seconds of excess of a signal (T, ...) above 1: ``G <- max(0, G + (z - 1) dt)``; NaN counts as 1."""
+    step = np.nan_to_num(np.asarray(z) - 1.0, nan=0.0, posinf=0.0) * dt
+    total = np.cumsum(step, axis=0)
+    return np.asarray(total - np.minimum(np.minimum.accumulate(total, axis=0), 0.0))

@@ -1,0 +1,157 @@
+"""What is watched of a record: residual torques, tracking, and the measured tool against that of the joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.poses import rotation_vectors, rotations_of_quaternions
+from holdfast.diagnosis.observer import excess, filtered_rates, momentum_kernel, residuals
+from holdfast.errors import InputError
+from holdfast.faults.log import Log
+
+Array = NDArray[np.float64]
+
+LIMITS = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
+SMOOTHED = 5  # samples of the tool's pose
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scaled:
+    """Residuals in units of their bounds, and their seconds of excess.
+
+    Attributes:
+        torque, tracking: (T, n).
+        tool: (T,) NaN where the pose is not measured.
+        excess: By level, seconds.
+        alarm: Row of the first alarm, and the levels that alarm there; None if there is none.
+    """
+
+    torque: Array
+    tracking: Array
+    tool: Array
+    excess: dict[str, Array]
+    alarm: tuple[int, tuple[str, ...]] | None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Signals:
+    """Residuals of a record, T samples of n joints.
+
+    Attributes:
+        dt: s.
+        torque: (T, n) residual torque r, N m and N; 0 without torques.
+        tracking: (T, n) distance from the reference, rad and m.
+        tool: (T, 6) measured pose less that of the joints, m and rad, smoothed; NaN between samples.
+        v: (T, n) filtered rates, rad/s and m/s.
+        gravity: (T, n) N m and N; 0 without torques.
+        levels: What of ``torque``, ``tracking`` and ``tool`` is there.
+    """
+
+    dt: float
+    torque: Array
+    tracking: Array
+    tool: Array
+    v: Array
+    gravity: Array
+    levels: tuple[str, ...]
+
+    def largest(self, name: str) -> Array | float:
+        """Largest size of ``torque`` or ``tracking``, (n,), or of the tool's ``position`` or ``angle``; infinite if absent."""
+        if name in ("torque", "tracking"):
+            values = np.nanmax(np.abs(getattr(self, name)), axis=0)
+            return np.asarray(values if name in self.levels else np.full(len(values), np.inf))
+        part = self.tool[:, :3] if name == "position" else self.tool[:, 3:]
+        return float(np.nanmax(np.linalg.norm(part, axis=1))) if "tool" in self.levels else np.inf
+
+    def scaled(self, torque: Array, tracking: Array, position: float, angle: float) -> Scaled:
+        """In units of bounds, with what alarms first."""
+        z, y = np.abs(self.torque) / torque, np.abs(self.tracking) / tracking
+        sizes = [np.linalg.norm(self.tool[:, :3], axis=1) / position, np.linalg.norm(self.tool[:, 3:], axis=1) / angle]
+        w = np.maximum(*sizes)
+        over = {"torque": excess(z, self.dt), "tracking": excess(y, self.dt), "tool": self._tool_excess(w)}
+        flags = {name: (over[name].reshape(len(w), -1) > LIMITS[name]).any(axis=1) for name in over if name in self.levels}
+        rows = {name: int(flag.argmax()) for name, flag in flags.items() if flag.any()}
+        alarm = None
+        if rows:
+            first = min(rows.values())
+            alarm = first, tuple(name for name, row in rows.items() if row == first)
+        return Scaled(torque=z, tracking=y, tool=w, excess=over, alarm=alarm)
+
+    def _tool_excess(self, w: Array) -> Array:
+        """Between samples of the pose it stays; each counts for the time since the last one."""
+        there = np.flatnonzero(np.isfinite(w))
+        total = np.zeros(len(w))
+        if there.size > 1:
+            steps = np.diff(there, prepend=there[0]) * self.dt
+            found = excess(w[there], steps)
+            total = found[np.maximum(np.searchsorted(there, np.arange(len(w)), side="right") - 1, 0)]
+            total[: there[0]] = 0.0
+        return total
+
+
+def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals:
+    """The residuals of a record.
+
+    Args:
+        arm: The arm.
+        log: The record, evenly sampled; missing joint values are bridged, and are nobody's fault.
+        coulomb: (n,) dry friction, N m and N.
+        viscous: (n,) N m s/rad and N s/m.
+
+    Raises:
+        InputError: A record of another number of joints.
+        ArmError: Torques are there, and the arm's inertial data are missing or impossible.
+    """
+    if log.n != arm.n:
+        raise InputError(f"the record has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
+    dt, tracking = 1 / log.rate, log.q_ref - log.q
+    q = bridged(log.q)
+    levels, r, gravity = ["tracking"], np.zeros(q.shape), np.zeros(q.shape)
+    if log.tau is not None:
+        r, v, gravity = residuals(momentum_kernel(arm), q, bridged(log.tau), dt=dt, coulomb=coulomb, viscous=viscous)
+        levels.append("torque")
+    else:
+        v = filtered_rates(q, dt)
+    tool = np.full((len(q), 6), np.nan)
+    if log.x is not None and log.quat is not None:
+        there = np.flatnonzero(np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
+        if there.size >= SMOOTHED:
+            tool[there] = _smoothed(tool_residual(arm, q[there], log.x[there], log.quat[there]))
+            levels.append("tool")
+    return Signals(dt=dt, torque=r, tracking=tracking, tool=tool, v=v, gravity=gravity, levels=tuple(levels))
+
+
+def tool_residual(arm: Arm, q: Array, x: Array, quat: Array) -> Array:
+    """(N, 6) measured tool poses less those of the joints: ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
+    poses = arm.forward_kinematics(q)
+    turns = rotation_vectors(rotations_of_quaternions(quat) @ poses[:, :3, :3].transpose(0, 2, 1))
+    return np.concatenate([x - poses[:, :3, 3], turns], axis=1)
+
+
+def bridged(values: Array) -> Array:
+    """A record (T, n) with straight lines over what is missing.
+
+    Raises:
+        InputError: A column holds no number.
+    """
+    if np.isfinite(values).all():
+        return values
+    whole, rows = values.copy(), np.arange(len(values))
+    for column in whole.T:
+        good = np.isfinite(column)
+        if not good.any():
+            raise InputError("a column of the record holds no number at all; leave the signal out")
+        column[~good] = np.interp(rows[~good], rows[good], column[good])
+    return whole
+
+
+def _smoothed(rows: Array) -> Array:
+    """Means of the last samples, fewer at the beginning."""
+    total = np.cumsum(np.vstack([np.zeros(rows.shape[1]), rows]), axis=0)
+    last = np.arange(1, len(rows) + 1)
+    first = np.maximum(last - SMOOTHED, 0)
+    return np.asarray((total[last] - total[first]) / (last - first)[:, None])

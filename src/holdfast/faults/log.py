@@ -1,0 +1,151 @@
+"""What a robot or a simulation recorded of its joints over time; read from npz and CSV files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import InputError
+from holdfast.files import reading
+from holdfast.files.output import guarded, write_table
+
+Array = NDArray[np.float64]
+_WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one for each joint
+_NEEDED = ("t", "q_ref", "q")
+_COLUMN = re.compile(r"(q_ref|q|tau|x|quat)_(\d+)")
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Log:
+    """T samples of n joints.
+
+    Attributes:
+        t: (T,) s, increasing.
+        q_ref: (T, n) what the servos are to follow, rad and m.
+        q: (T, n) what the joint sensors tell, rad and m; NaN where there is no sample.
+        tau: (T, n) commanded torques of the motors, N m and N; None: not recorded.
+        x: (T, 3) measured tool point in the world, m, NaN where there is no sample, in the row of the time at which it was
+            taken; None: not measured.
+        quat: (T, 4) measured orientation of the tool, a quaternion x, y, z, w; with ``x``.
+
+    Raises:
+        InputError: Shapes that do not fit, or time that does not increase.
+    """
+
+    t: Array
+    q_ref: Array
+    q: Array
+    tau: Array | None = None
+    x: Array | None = None
+    quat: Array | None = None
+
+    def __post_init__(self) -> None:
+        t = np.asarray(self.t, dtype=np.float64)
+        if t.ndim != 1 or len(t) < 2:
+            raise InputError(f"t has shape {t.shape}; it must be the times of two samples or more, s")
+        if not (np.diff(t) > 0).all():
+            row = int(np.flatnonzero(~(np.diff(t) > 0))[0]) + 1
+            raise InputError(f"t does not increase at row {row}: {t[row - 1]:g} s, then {t[row]:g} s")
+        object.__setattr__(self, "t", t)
+        joints = np.shape(self.q)[-1] if np.ndim(self.q) == 2 else 0
+        for name, width in list(_WIDTHS.items())[1:]:
+            value = getattr(self, name)
+            if value is None and name not in _NEEDED:
+                continue
+            array, wanted = np.asarray(value, dtype=np.float64), (len(t), joints if width < 0 else width)
+            if array.shape != wanted or not joints:
+                raise InputError(f"{name} has shape {array.shape}; it must be {wanted}, a row for each time")
+            object.__setattr__(self, name, array)
+        if (self.x is None) != (self.quat is None):
+            raise InputError("only one of x and quat is there; give the tool's position and its orientation, or neither")
+
+    @property
+    def n(self) -> int:
+        """Joints."""
+        return int(self.q.shape[1])
+
+    @property
+    def rate(self) -> float:
+        """Samples per second, of the median step."""
+        return float(1 / np.median(np.diff(self.t)))
+
+    @property
+    def duration(self) -> float:
+        """From the first sample to the last, s."""
+        return float(self.t[-1] - self.t[0])
+
+    @classmethod
+    def load(cls, file: str | Path) -> Log:
+        """From ``.npz`` with arrays of these names, or CSV with columns ``t, q_ref_1, ..., q_1, ..., tau_1, ..., x_1, ...``.
+
+        Raises:
+            InputError: Unreadable, or something is missing or wrong; the message names it.
+        """
+        path = Path(file)
+        try:
+            arrays = _from_csv(path) if path.suffix.lower() == ".csv" else _from_npz(path)
+            missing = [name for name in _NEEDED if name not in arrays]
+            if missing:
+                raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
+            return cls(**{name: arrays[name] for name in _WIDTHS if name in arrays})
+        except InputError as error:
+            raise InputError(f"log '{path}': {error}") from error
+
+    def save(self, file: str | Path) -> Path:
+        """Write ``.npz`` (single precision but for the time) or, by its name, CSV.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        path = Path(file)
+        given = {name: value for name in _WIDTHS if (value := getattr(self, name)) is not None}
+        if path.suffix.lower() == ".csv":
+            header = ["t", *(f"{name}_{k + 1}" for name, a in given.items() if a.ndim == 2 for k in range(a.shape[1]))]
+            return write_table(path, "log", header, np.column_stack(list(given.values())))
+        with guarded(path, "log", "choose another path"), path.open("wb") as stream:
+            np.savez_compressed(
+                stream, **{name: value if name == "t" else value.astype(np.float32) for name, value in given.items()}
+            )
+        return path
+
+
+def _from_npz(path: Path) -> Mapping[str, Any]:
+    import io
+
+    with reading.guarded(advice="give an .npz or .csv file"):
+        content = reading.raw(path)
+    try:
+        with np.load(io.BytesIO(content), allow_pickle=False) as data:
+            return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _WIDTHS}
+    except Exception as error:  # zipfile, zlib and NumPy have many ways of saying no
+        raise InputError("it is no .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error
+
+
+def _from_csv(path: Path) -> Mapping[str, Any]:
+    with reading.guarded(advice="give an .npz or .csv file"):
+        lines = reading.raw(path).decode("utf-8", "replace").splitlines()
+    header = [name.strip() for name in (lines[0] if lines else "").split(",")]
+    try:
+        rows = np.array([[float(x or "nan") for x in line.split(",")] for line in lines[1:] if line.strip()])
+        columns = dict(zip(header, rows.T, strict=True))
+    except ValueError as error:
+        raise InputError(f"its rows are not {len(header)} numbers each, as its first line names them") from error
+    found: dict[str, dict[int, Array]] = {}
+    for name, values in columns.items():
+        if name == "t":
+            continue
+        match = _COLUMN.fullmatch(name)
+        if match:
+            found.setdefault(match[1], {})[int(match[2])] = values
+    arrays: dict[str, Any] = {"t": columns["t"]} if "t" in columns else {}
+    for name, parts in found.items():
+        if sorted(parts) != list(range(1, len(parts) + 1)):
+            raise InputError(f"its columns {name}_1, {name}_2, ... have a gap")
+        arrays[name] = np.column_stack([parts[k] for k in sorted(parts)])
+    return arrays

@@ -1,0 +1,148 @@
+"""Faults in simulated records, what is refused, and that the monitor in a loop says what it says of a record."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.errors import InputError
+from holdfast.faults import FaultEvent, Log
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return hf.arms.load("panda")
+
+
+@pytest.fixture(scope="module")
+def healthy(panda):
+    return [hf.diagnosis.rehearse(panda, 2.5, seed=k) for k in range(5)]
+
+
+@pytest.fixture(scope="module")
+def bounds(panda, healthy):
+    return hf.diagnosis.calibrate(panda, healthy, coulomb=np.full(7, 0.5), viscous=np.full(7, 0.3))
+
+
+FAULTS = {
+    "locked": ("panda_joint4", {}, {"locked"}),
+    "limp": ("panda_joint2", {}, {"limp", "weak"}),
+    "weak": ("panda_joint4", {"gain": 0.3}, {"weak"}),
+    "sensor_drift": ("panda_joint6", {"rate": 0.03}, {"sensor"}),
+    "sensor_freeze": ("panda_joint3", {}, {"sensor"}),
+    "slipping_clutch": ("panda_joint5", {}, {"sensor"}),
+}
+
+
+@pytest.fixture(scope="module")
+def records(panda):
+    return {
+        kind: hf.diagnosis.rehearse(panda, 1.6, seed=50, faults=[FaultEvent(kind, joint, 0.9, parameters=numbers)])
+        for kind, (joint, numbers, _) in FAULTS.items()
+    }
+
+
+@pytest.mark.parametrize("kind", FAULTS)
+def test_a_fault_is_noticed_and_named(kind, panda, bounds, records):
+    joint, numbers, named = FAULTS[kind]
+    found = hf.diagnosis.diagnose(panda, records[kind], bounds)
+    assert found.verdict.alarm
+    assert 0.9 <= found.verdict.time < 1.4
+    assert found.verdict.joint == joint
+    assert found.verdict.kind in named
+    if kind == "weak":
+        assert found.verdict.loss == pytest.approx(1 - numbers["gain"], abs=0.1)
+        assert "gives" in found.describe()[0]
+
+
+def test_a_push_is_nobodys_fault(panda, bounds, healthy):
+    """Residuals of a force at the tool, put into a healthy record by its torques."""
+    log = healthy[0]
+    pushed = log.tau.copy()
+    pushed[1500:] -= np.einsum("tij,i->tj", panda.jacobian(log.q[1500:])[:, :3], [0.0, 35.0, -20.0])
+    found = hf.diagnosis.diagnose(panda, dataclasses.replace(log, tau=pushed), bounds)
+    assert found.verdict.kind == "contact"
+    assert found.verdict.joint is None
+
+
+def test_nothing_seen_is_not_called_well(panda, bounds, healthy):
+    still = dataclasses.replace(healthy[0], q=healthy[0].q.copy(), q_ref=healthy[0].q_ref.copy(), x=None, quat=None)
+    still.q_ref[:, 2] = still.q[:, 2] = 0.1
+    said = hf.diagnosis.diagnose(panda, still, dataclasses.replace(bounds, torque=np.full(7, np.inf))).describe()
+    assert said[0] == "no fault seen in 2.499 s"
+    assert "these joints did not move enough to tell: panda_joint3" in said
+    assert "not watched: torques, the measured tool pose" in said
+    assert not any("healthy" in line or "fine" in line for line in said)
+
+
+def test_a_loop_says_what_a_record_says(panda, bounds, records):
+    for kind in ("locked", "weak"):
+        log = dataclasses.replace(records[kind], x=None, quat=None)
+        monitor = hf.diagnosis.Monitor(panda, dataclasses.replace(bounds, position=np.inf, angle=np.inf))
+        whole = monitor.run(log).verdict
+        told = [monitor.step(*rows) for rows in zip(log.q, log.q_ref, log.tau, strict=True)]
+        first = next(v for v in told if v.alarm)
+        assert first.time == pytest.approx(whole.time, abs=1e-9)
+        assert (first.joint, first.kind) == (None, "unknown")
+        assert (told[-1].joint, told[-1].kind, told[-1].candidates) == (whole.joint, whole.kind, whole.candidates)
+        assert told[-1].loss == pytest.approx(whole.loss, nan_ok=True)
+        monitor.reset()
+        assert not monitor.step(log.q[0], log.q_ref[0], log.tau[0]).alarm
+        assert not monitor.step(log.q[0] * np.nan, log.q_ref[0], log.tau[0]).alarm
+
+
+def test_false_alarms_are_counted_and_bounded(bounds, healthy):
+    hours = sum(log.duration for log in healthy) / 3600
+    rate, limit = bounds.false_alarms()
+    assert rate == bounds.alarms / hours
+    assert limit >= rate
+    none = dataclasses.replace(bounds, alarms=0, hours=10.0).false_alarms()
+    assert none == (0, pytest.approx(-np.log(0.05) / 10))  # Poisson: exp(-limit hours) = 5 %
+    assert dataclasses.replace(bounds, alarms=None).false_alarms() is None
+    some = dataclasses.replace(bounds, alarms=3, hours=2.0).false_alarms()[1]
+    terms = np.cumprod(np.r_[1.0, 2 * some / np.arange(1, 4)])
+    assert np.exp(-2 * some) * terms.sum() == pytest.approx(0.05)
+
+
+def test_bounds_and_records_come_back_from_files(panda, bounds, healthy, tmp_path):
+    known = hf.diagnosis.load(bounds.to_json(tmp_path / "bounds.json"))
+    assert all(np.array_equal(getattr(known, name), value) for name, value in vars(bounds).items())
+    log = Log(**{f.name: getattr(healthy[0], f.name)[:200] for f in dataclasses.fields(Log)})
+    for name, digits in (("log.npz", 1e-6), ("log.csv", 1e-8)):
+        again = Log.load(log.save(tmp_path / name))
+        for field in dataclasses.fields(Log):
+            assert getattr(again, field.name) == pytest.approx(getattr(log, field.name), rel=digits, abs=digits, nan_ok=True)
+    (tmp_path / "bounds.json").write_text("{}", encoding="utf-8")
+    with pytest.raises(InputError, match="it is no file of bounds"):
+        hf.diagnosis.load(tmp_path / "bounds.json")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("t,q_1\n0,1\n1,1\n", "it has no q_ref; a log has at least"),
+        ("t,q_ref_1,q_1\n0,1\n", "its rows are not 3 numbers each"),
+        ("t,q_ref_1,q_2\n0,1,1\n1,1,1\n", "its columns q_1, q_2, ... have a gap"),
+        ("t,q_ref_1,q_1\n0,1,1\n0,1,1\n", "t does not increase at row 1"),
+    ],
+)
+def test_a_record_that_is_wrong(text, words, tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        Log.load(path)
+
+
+def test_what_does_not_go_together_is_refused(panda, bounds, healthy):
+    with pytest.raises(InputError, match="the bounds are of another arm"):
+        hf.diagnosis.Monitor(hf.arms.load("planar-3r"), bounds)
+    slow = dataclasses.replace(healthy[0], t=healthy[0].t * 2)
+    with pytest.raises(InputError, match="the record has 500 samples a second and the bounds 1000"):
+        hf.diagnosis.diagnose(panda, slow, bounds)
+    with pytest.raises(InputError, match=r"factor is 0\.5; it must"):
+        hf.diagnosis.calibrate(panda, healthy[:1], factor=0.5)
+    with pytest.raises(InputError, match="'panda_joint1' never departs from its reference"):
+        hf.diagnosis.calibrate(panda, [dataclasses.replace(healthy[0], q_ref=healthy[0].q)])
