@@ -90,7 +90,7 @@ class Boxes:
         blocked: Blocked | None,
         way: Array | None = None,
     ) -> None:
-        low, high = (x.copy() for x in limits)
+        low, high = limits[0].copy(), limits[1].copy()
         self.parts = parts = Parts.of(arm, task)
         if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
             turned = pose[:3, :3] @ arm.forward_kinematics((low + high) / 2)[:3, :3].T @ parts.normal

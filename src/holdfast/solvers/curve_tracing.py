@@ -56,6 +56,36 @@ class Component:
     length: float
     barred_by: tuple[str, str] = ("", "")
 
+    @property
+    def winding(self) -> NDArray[np.int64]:
+        """(n,) whole turns of each joint on the way round a closed curve; 0 on others.
+
+        Not 0: the joint takes every angle, which no spacing of the points blurs.
+        """
+        turns = np.rint((self.q[-1] - self.q[0]) / (2 * np.pi)) if self.closed else np.zeros(self.q.shape[1])
+        return turns.astype(np.int64)
+
+    @property
+    def ranges(self) -> Array:
+        """(n,) length of the interval of values that each joint takes on the curve, rad or m; 2 pi of a joint that winds.
+
+        Of a revolute joint 2 pi or more is every angle. The ends lie on parabolas through three points.
+        """
+        wide = np.array([_peak(x, self.closed) + _peak(-x, self.closed) for x in self.q.T])
+        return np.where(self.winding != 0, 2 * np.pi, wide)
+
+
+def _peak(x: Array, closed: bool) -> float:
+    """The largest value of a smooth curve with points x (K,), by the parabola through the largest and its neighbours."""
+    k, count = int(x.argmax()), len(x)
+    if count < 3 or (not closed and k in (0, count - 1)):
+        return float(x[k])
+    before, after = x[k - 1] - x[k], x[(k + 1) % count] - x[k]
+    bent = before + after
+    # Where the curve winds or its ends are no neighbours the parabola means nothing: its rise is at most the gap.
+    rise = (before - after) ** 2 / (-8 * bent) if bent < 0 else 0.0
+    return float(x[k] + min(rise, abs(before), abs(after)))
+
 
 @dataclass
 class _Run:

@@ -77,6 +77,9 @@ class SelfMotion(Result):
         """A few sentences for people."""
         lines = [f"{self.arm.title}, task {self.task.name}: {self._found()}"]
         lines += [f"curve {k + 1}: {c.length:.3g} rad, {self.ends(k)}" for k, c in enumerate(self.components)]
+        if self.components and not self.arm.prismatic.all():
+            most = np.count_nonzero(~self.arm.prismatic)
+            lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {most} whole turns")
         for joint, arcs in zip(self.arm.joints, self.bounds or [], strict=False):
             factor, unit = joint.shown
             ranges = " or ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
@@ -94,6 +97,29 @@ class SelfMotion(Result):
         lengths = ", ".join(f"{c.length:.3g}" for c in self.components)
         plural = "s" if len(self.components) != 1 else ""
         return f"{len(self.components)} curve{plural} of configurations, {closed} closed, lengths {lengths} rad"
+
+    @property
+    def size(self) -> float:
+        """The largest sum over the revolute joints of the measure of angles that each takes on one curve; 0 without curves.
+
+        With n revolute joints at most 2 pi n: then the pose stays within reach whatever joint locks, at whatever angle, and
+        all these configurations lie on one curve.
+
+        Raises:
+            TaskError: The manifold is sampled, not made of curves.
+
+        Source: Almarkhi, Maciejewski 2020 (abstract); the measure by winding numbers is derived here.
+        """
+        if self.redundancy > 1:
+            raise TaskError(f"with a redundancy of {self.redundancy} self-motions are no curves, and their size is not defined")
+        turning = ~self.arm.prismatic
+        each = [np.minimum(c.ranges[turning], 2 * np.pi).sum() for c in self.components]
+        return float(max(each, default=0.0))
+
+    @property
+    def full(self) -> bool:
+        """True where every revolute joint takes every angle on one curve."""
+        return bool(self.size >= 2 * np.pi * np.count_nonzero(~self.arm.prismatic) * (1 - 1e-12))
 
     def ends(self, k: int) -> str:
         """What ends curve k, for people."""

@@ -20,10 +20,12 @@ from holdfast.files import yaml
 from holdfast.files.yaml import Number, Strict, sentence
 from holdfast.grammar import TASKS
 from holdfast.result import Result
+from holdfast.solvers.self_motions import self_motion
 
 Array = NDArray[np.float64]
 
 _ORTHONORMAL = 1e-12
+_SPACING, _STARTS = 0.01, 32  # rad; of the trace of a self-motion
 _ONE = "one configuration"
 _FOLDER = Path(__file__).parent / "data"
 
@@ -33,7 +35,7 @@ class _Class(Strict):
     rows: int
     joints: int
     failures: int
-    quantity: Literal["relative-manipulability"]
+    quantity: Literal["relative-manipulability", "self-motion-size"]
     conditions: list[str]
 
 
@@ -84,10 +86,13 @@ class Record(Result):
     text: str
 
     @property
-    def ceiling(self) -> Ceiling:
-        """What is proven and known for its joints, rows and failures."""
+    def proven(self) -> tuple[float, str]:
+        """What no arm can beat, and why: of the size of a self-motion, in whole turns, all joints."""
         c = self.data.kind
-        return look_up(n=c.joints, m=c.rows, k=c.failures)
+        if c.quantity == "self-motion-size":
+            return float(c.joints), "definition"
+        bound = look_up(n=c.joints, m=c.rows, k=c.failures)
+        return bound.bound, bound.bound_by
 
     @property
     def gap(self) -> float:
@@ -107,19 +112,19 @@ class Record(Result):
     def describe(self) -> list[str]:
         """Class, value and bound."""
         c, bound = self.data.kind, self.data.proven_bound
-        what = f"{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {c.failures} locked at once"
+        of = f"{c.failures} locked at once" if c.quantity == "relative-manipulability" else "whole turns in one self-motion"
+        what = f"{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {of}"
         beaten = f"; beaten by {self.data.beaten_by}" if self.data.beaten_by else ""
         return [f"{self.id}: {what}: {self.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten}"]
 
     def check(self) -> RecordCheck:
         """Measure everything again, with code that shares nothing with what found it."""
         c, claimed, claims = self.data.kind, self.data, list[tuple[str, bool]]()
-        null = self._null_space(claims)
-        if null is not None:
-            value = least_left(null, c.failures)
+        value = self._turns() if c.quantity == "self-motion-size" else self._left(claims)
+        if value is not None:
             near_enough = abs(value - claimed.value) <= claimed.check.tolerance * value
             claims.append((f"value {claimed.value!r}, measured {value!r}", near_enough))
-        bound = self.ceiling.bound
+        bound, _ = self.proven
         said = claimed.proven_bound.value
         claims.append((f"bound {said!r} by {claimed.proven_bound.by}, proven {bound!r}", abs(said - bound) <= 1e-9 * bound))
         below = claimed.value <= bound * (1 + 1e-9)
@@ -127,6 +132,18 @@ class Record(Result):
             ("the value is below the bound" if below else "the value beats a proven bound: one of both is wrong", below)
         )
         return RecordCheck(record=self, claims=claims)
+
+    def _turns(self) -> float | None:
+        """Whole turns of all joints on one curve of the pose, traced anew with half the spacing."""
+        arm = self.arm
+        if arm is None or self.data.kind.task is None or arm.n - self.data.kind.rows != 1:
+            return None
+        found = self_motion(arm, arm.forward_kinematics(self.q), self.data.kind.task, spacing=_SPACING, starts=_STARTS)
+        return found.size / (2 * np.pi)
+
+    def _left(self, claims: list[tuple[str, bool]]) -> float | None:
+        null = self._null_space(claims)
+        return None if null is None else least_left(null, self.data.kind.failures)
 
     def _null_space(self, claims: list[tuple[str, bool]]) -> Array | None:
         c = self.data.kind
@@ -217,8 +234,7 @@ def best_of(kind: Any) -> Record | None:
     same = [
         r
         for r in records().values()
-        if (r.data.kind.task, r.data.kind.rows, r.data.kind.joints, r.data.kind.failures)
-        == (kind.task, kind.rows, kind.joints, kind.failures)
+        if r.data.kind.model_copy(update={"conditions": []}) == kind.model_copy(update={"conditions": []})
     ]
     return max(same, key=lambda r: r.data.value, default=None)
 

@@ -39,6 +39,7 @@ class Synthesis(Result):
         failures: Joints that lock at once.
         value: Worst case of the null space: relative manipulability of each arm at zero before its numbers were rounded.
         arms: The rounded arms, best condition number first.
+        jacobians: Of each arm, (m, n), before its numbers were rounded; of a pose in its own unit of length.
         losses: What rounding took from the value of each arm.
         residual: Of the starts that came nearest, where lines were sought: 0 where they are given.
         bound: What no arm can beat.
@@ -48,6 +49,7 @@ class Synthesis(Result):
     failures: int
     value: float
     arms: list[Arm]
+    jacobians: list[Array]
     losses: list[float]
     residual: float
     bound: float
@@ -114,7 +116,7 @@ def synthesise(
                 )
         else:
             found = [complement(null).T]
-    arms, losses = [], []
+    arms, jacobians, losses = list[Arm](), list[Array](), list[float]()
     value = worst_case(null, failures)
     for j in found:
         turns = (
@@ -126,9 +128,19 @@ def synthesise(
             table = _table(*axes_of(j, angles), 1.0 if jacobian is not None else None, task)
             arm = _rounded(table, decimals, jacobian is not None).arm(name=f"{task}-{len(null)}R")
             arms.append(arm)
+            jacobians.append(j)
             losses.append(value - worst_case(_null_of(task_rows(arm, task)), failures))
     bound = (ceiling or look_up(n=len(null), m=rows, k=failures)).bound
-    return Synthesis(task=task, failures=failures, value=value, arms=arms, losses=losses, residual=residual, bound=bound)
+    return Synthesis(
+        task=task,
+        failures=failures,
+        value=value,
+        arms=arms,
+        jacobians=jacobians,
+        losses=losses,
+        residual=residual,
+        bound=bound,
+    )
 
 
 def written(arm: Arm, path: Path) -> Path:

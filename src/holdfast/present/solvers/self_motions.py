@@ -41,12 +41,15 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
             {
                 "closed": c.closed,
                 "length_rad": c.length,
+                "winding": dict(zip(names, c.winding, strict=True)),
+                "ranges": dict(zip(names, c.ranges, strict=True)),
                 "bounded_by": [None if i is None else names[i] for i in c.bounded_by],
                 "barred_by": [pair or None for pair in c.barred_by],
                 "points": len(c.q),
             }
             for c in motion.components
         ],
+        "size_rad": motion.size if motion.redundancy == 1 else None,
         "clearance": None if motion.clearance is None else shape_summary(motion.clearance, motion.margin),
         **({} if motion.bounds is None else {"bounds": dict(zip(names, motion.bounds, strict=True))}),
     }

@@ -1,0 +1,152 @@
+"""Every table of the page on ceilings: ``python -m papers.ceilings`` (about five minutes on one core); RESULTS.md."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+import holdfast as hf
+
+Array = NDArray[np.float64]
+HERE = Path(__file__).parent
+SAMPLES, CLIMBS, STEPS, SEEDS = 100_000, 24, 40, (1, 2)
+DIFFERENCE = 1e-6  # rad, m
+ZERO, NAMED = 1e-7, 3  # below it is rounding of roots
+SEARCHED = 20.0  # s
+AGAIN = [(9, 6, 2), (9, 6, 3), (8, 5, 3), (7, 3, 3), (10, 3, 2), (6, 2, 2)]  # sizes searched anew
+MARKET = [  # arm, task, joints that lock at once, what the specification found
+    ("panda", "pose", 1, 0.3135),
+    ("xarm7", "pose", 1, 0.3189),
+    ("iiwa14", "pose", 1, 0.0),
+    ("pa10-7dof", "pose", 1, 0.0),
+    ("pa10-9dof", "pose", 1, 0.5396),
+    ("pa10-9dof", "pose", 2, 0.1717),
+    ("pa10-9dof", "pose", 3, 0.0),
+    ("panda", "position", 1, 0.6929),
+    ("panda", "position", 2, 0.3528),
+    ("panda", "position", 3, 0.0),
+    ("iiwa14", "position", 2, 0.1736),
+    ("ur5", "position", 1, 0.6292),
+    ("ur5", "position", 2, 0.0),
+    ("planar-3r", "planar", 1, 0.57735),
+]
+
+
+def arrangements() -> list[str]:
+    """Theorem R4: what the certificates of all classes prove."""
+    lines = [
+        "| joints, redundancy 3 | classes | proven in ball arithmetic | best null space | seconds |",
+        "|---|---|---|---|---|",
+    ]
+    for n in (6, 7, 8, 9):
+        start = monotonic()
+        found = hf.ceilings.bounds_by_arrangement(n, enough=0.0465 if n == 9 else 0.0)
+        best = hf.ceilings.look_up(n=n, m=n - 3, k=3).best_known
+        lines.append(f"| {n} | {len(found):,} | {max(found):.13f} | {best:.13f} | {monotonic() - start:.0f} |")
+    return lines
+
+
+def ceilings() -> list[str]:
+    """Bound and best null space of every stored size."""
+    lines = [
+        "| joints | rows | lock | bound | by | best known | in roots | bound above it |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for c in hf.ceilings.table().ceilings:
+        best = "attained" if c.attained else f"{c.best_known:.7f}"
+        gap = "0" if c.attained else f"{100 * (c.gap or 0):.1f} %"
+        lines.append(f"| {c.n} | {c.m} | {c.k} | {c.bound:.7f} | {c.bound_by} | {best} | {c.closed_form} | {gap} |")
+    return lines
+
+
+def searches() -> list[str]:
+    """What a fresh search of one seed finds."""
+    lines = [f"| joints, rows, lock | found in {SEARCHED:.0f} s, seed 7 | of the best known |", "|---|---|---|"]
+    for n, m, k in AGAIN:
+        found = hf.ceilings.search(n=n, m=m, k=k, seed=7, seconds=SEARCHED)
+        lines.append(f"| {n}, {m}, {k} | {found.value:.10f} | {found.value / float(found.ceiling.best_known or 1):.9f} |")
+    return lines
+
+
+def market() -> list[str]:
+    """The best configuration found of arms that are sold, within their limits: lower bounds."""
+    lines = [
+        "| arm | task | lock | best found | specification | of the best known | of the bound | seconds |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for name, task, k, said in MARKET:
+        arm, start = hf.arms.load(name), monotonic()
+        index = hf.indices.relative_manipulability(arm, task, k)
+        best = max(best_configuration(index, seed) for seed in SEEDS)
+        fraction = f"0: {fatal(index)}" if best < ZERO else f"{best / float(index.best_known or 1):.3f}"
+        took = f"{best / float(index.bound or 1):.3f} | {monotonic() - start:.1f}"
+        lines.append(f"| {name} | {task} | {k} | {best:.4f} | {said:.4f} | {fraction} | {took} |")
+    return lines
+
+
+def fatal(index: hf.indices.Index) -> str:
+    """The sets of joints whose locks end the task in every sample: by structure, as far as samples tell."""
+    rng = np.random.default_rng(0)
+    values = index.by_joint(rng.uniform(-np.pi, np.pi, (2000, index.arm.n)))
+    names = [name for name, worst in zip(index.failure_names, values.max(axis=0), strict=True) if worst < ZERO]
+    return ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
+
+
+def best_configuration(index: hf.indices.Index, seed: int) -> float:
+    """Linear programmes within a trust region and the limits, from some of the best of many samples."""
+    arm, rng = index.arm, np.random.default_rng(seed)
+    lower, upper = np.maximum(arm.lower, -np.pi), np.minimum(arm.upper, np.pi)
+    q = rng.uniform(lower, upper, (SAMPLES, arm.n))
+    order = np.argsort(-index(q))
+    return max(climbed(index, q[k], lower, upper) for k in [order[0], *rng.choice(order[: SAMPLES // 200], CLIMBS)])
+
+
+def climbed(index: hf.indices.Index, q: Array, lower: Array, upper: Array) -> float:
+    """A local maximum of the worst case: all failures near the worst, each by its tangent."""
+    n, radius = len(q), 0.3
+    values = index.by_joint(q)
+    for _ in range(STEPS):
+        if radius < 1e-7:
+            break
+        slopes = (index.by_joint(q + DIFFERENCE * np.eye(n)) - values).T / DIFFERENCE
+        near = values <= values.min() + 2 * radius * np.linalg.norm(slopes, axis=1).max()
+        low, high = np.maximum(-radius, lower - q), np.minimum(radius, upper - q)
+        answer = linprog(
+            [*np.zeros(n), -1.0],
+            A_ub=np.hstack([-slopes[near], np.ones((near.sum(), 1))]),
+            b_ub=values[near] - values.min(),
+            bounds=[*zip(low, high, strict=True), (None, None)],
+            method="highs-ds",
+        )
+        if answer.x is None:
+            break
+        new = np.clip(q + answer.x[:n], lower, upper)
+        tried = index.by_joint(new)
+        if tried.min() > values.min():
+            q, values = new, tried
+            radius = min(1.5 * radius, 0.5)
+        else:
+            radius *= 0.4
+    return float(values.min())
+
+
+def main() -> None:
+    """All of it."""
+    lines = ["# Ceilings", "", "Written by `python -m papers.ceilings`. Measured here; proofs are in `docs/ceilings.md`.", ""]
+    for title, table in (
+        ("Certificates of theorem R4", arrangements),
+        ("Ceilings", ceilings),
+        ("Found again", searches),
+        ("Arms that are sold", market),
+    ):
+        lines += [f"## {title}", "", *table(), ""]
+        print("\n".join(lines[-40:]), flush=True)
+    (HERE / "RESULTS.md").write_text("\n".join(lines), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
