@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 from datetime import datetime
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 
 import holdfast as hf
 from holdfast.probability import Interval
-from holdfast.provenance import versions
 
 HERE = Path(__file__).parent
 COULOMB, VISCOUS = 0.5, 0.3  # N m, N m s/rad: what the records have, within 20 %
@@ -80,7 +80,7 @@ def main() -> None:
         log = hf.diagnosis.rehearse(arm, WATCHED, seed=FRESH // 2 + k)
         alarms += hf.diagnosis.diagnose(arm, log, bounds).verdict.alarm
     rows = [row(arm, bounds, kind, chosen.count) for kind in KINDS]
-    made = ", ".join(f"{name} {version}" for name, version in versions("holdfast", "numpy", "mujoco").items())
+    made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
     lines = [
         "# Faults in simulated records",
         "",
