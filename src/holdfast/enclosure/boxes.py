@@ -105,7 +105,9 @@ class Boxes:
         if idle(arm, parts):
             self._unseen[-1] = (high[-1] - low[-1]) / 2
             low[-1] = high[-1] = (low[-1] + high[-1]) / 2
-        self.low, self.high = (low, high) if way is None else (np.append(low, 0.0), np.append(high, 1.0))
+        if way is not None:
+            low, high = np.append(low, 0.0), np.append(high, 1.0)
+        self.low, self.high = low, high
         self.looked_at = self.left_out = 0
 
     def taken(self, stack: list[Array]) -> Array:
