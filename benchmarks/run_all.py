@@ -27,6 +27,7 @@ WORKLOADS = (
     "w16_endurance",
     "w16_fail_active",
     "w17_certificates",
+    "w18_faults",
     "w19_ceilings",
     "spectral",
     "memory",

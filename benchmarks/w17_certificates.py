@@ -144,6 +144,65 @@ def widths(chosen: argparse.Namespace) -> str:
     return harness.table("W17: half widths of what one configuration proves (medians)", head, rows)
 
 
+SHOULDER = [0.0, 0.0, 0.333]  # m, of a Panda
+AROUND, FLOORS = [-35, -45, 51, -111, -46, 84, -3], [40, 20, -30, -90, 30, 120, 0]  # deg
+APART = [  # locked joint, interval in deg, distance of the target from the shoulder along x, m; bar
+    (3, (-150, -145), 0.75, 200),
+    (3, (-130, -125), 0.715, 200),
+    (3, (-90, -85), 0.875, 200),
+    (3, (-60, -50), 0.26, 200),
+    (5, (0, 5), 0.92, 200),
+]
+
+
+def configurations(chosen: argparse.Namespace) -> str:
+    """What is told of configurations: out of reach, ceilings, floors."""
+    import holdfast as hf
+
+    arm, ranges = panda()
+    rows, made = [], hf.certificates
+
+    def about(degrees: list[int], half: float) -> np.ndarray:
+        middle = np.deg2rad(degrees)
+        return np.column_stack([middle - np.deg2rad(half), middle + np.deg2rad(half)])
+
+    claims = [
+        (
+            f"out of reach: joint {k + 1} at {a} to {b} deg, {far} m from the shoulder",
+            made.out_of_reach_claim(arm, np.add(SHOULDER, [far, 0, 0]), 0.01, locked={k: (np.deg2rad(a), np.deg2rad(b))}),
+            f"{bar}",
+        )
+        for k, (a, b), far, bar in APART
+    ]
+    below = {1: (np.deg2rad(-20), np.deg2rad(-15))}
+    claims.append(
+        (
+            "out of reach: joint 2 at -20 to -15 deg, (0.5, 0, -0.3)",
+            made.out_of_reach_claim(arm, [0.5, 0, -0.3], 0.015, locked=below),
+            "301,000 in the spike",
+        )
+    )
+    for half, top, bar in ((5, 0.0867, ""), (5, 0.0734, "23,300 in the spike"), (10, 0.0776, "250,000")):
+        claims.append((f"ceiling {top}, +-{half} deg", made.ceiling_claim(arm, about(AROUND, half), top), bar))
+    if not chosen.quick:
+        claims.append(("ceiling 0.0927, working ranges", made.ceiling_claim(arm, ranges, 0.0927), "2,000,000"))
+    for half, low, bar in (
+        (2, 0.02, "6,924 in the spike"),
+        (6, 0.003, "12,300 in the spike"),
+        (6, 0.0074, "27,800 in the spike"),
+    ):
+        claims.append((f"floor {low}, +-{half} deg", made.floor_claim(arm, about(FLOORS, half), low), bar))
+    for name, claim, bar in claims:
+        harness.progress(name)
+        found = hf.certify(claim)
+        with tempfile.TemporaryDirectory() as folder:
+            check = hf.check_certificate(found.write(Path(folder) / "one.certificate"))
+        times = [f"{found.seconds:.2f}", f"{check.seconds:.2f}"]
+        rows.append([name, f"{found.leaves:,}", bar, f"{float(found.undecided):.1e}", str(check.rejected), *times])
+    head = ["claim", "boxes", "asked, at most", "undecided", "rejected", "search, s", "check, s"]
+    return harness.table("W17: claims about configurations of a Panda", head, rows)
+
+
 def main() -> None:
     chosen = harness.options(__doc__, rounds=1)
     for part in (proofs, poses, paths, widths):

@@ -13,7 +13,6 @@ import numpy as np
 import holdfast as hf
 import pa10
 from holdfast import arms, kernels
-from holdfast.errors import KernelError
 
 ROWS, POSES, ROUNDS = 1_000_000, 20_000, 7
 
@@ -36,7 +35,7 @@ def workloads():
 def main() -> None:
     try:
         kernels.set_backend("cuda")
-    except KernelError as error:
+    except hf.HoldfastError as error:
         sys.exit(f"no table: {error}")
     on_gpu = workloads()
     kernels.set_backend(None)

@@ -72,7 +72,8 @@ parentheses is what that system gets instead.
 
 ## What the extras add
 
-The packages that the extras name, at the versions of `requirements-test.lock`; what these need in turn was not asked for.
+The packages that the extras name, at the versions of `requirements-test.lock`; what these need in turn was not asked for,
+nor for PyTorch, JAX and cuda-bindings, which no test of every change needs.
 
 {more}
 """
@@ -96,7 +97,10 @@ def extras() -> Packages:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     named = {Requirement(line).name for lines in project["optional-dependencies"].values() for line in lines}
     every, tests = locked(), locked("requirements-test.lock")
-    return {system: {name: tests[system][name] for name in sorted(named - every[system].keys())} for system in SYSTEMS}
+    return {
+        system: {name: tests[system][name] for name in sorted(named & tests[system].keys() - every[system].keys())}
+        for system in SYSTEMS
+    }
 
 
 def there(packages: dict[str, str], system: str, python: str) -> set[str]:

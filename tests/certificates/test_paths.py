@@ -45,14 +45,14 @@ def whole(check):
 @pytest.fixture(scope="module")
 def moved(panda):
     """A Panda whose tool goes down by 60 mm, in a tube of 0.1 mm and 0.1 mrad."""
-    return hf.certify(path_claim(panda, straight(panda, START, [0, 0, -0.06], 8), tube=1e-4))
+    return hf.certify(path_claim(panda, straight(panda, START, [0, 0, -0.06], 6), tube=1e-4), halvings=3)
 
 
 @pytest.fixture(scope="module")
 def bent(three):
     """A planar arm that stretches: after some locks the end is out of reach."""
-    knots = np.array([0.3, 1.6, 0.7]) + np.linspace(0, 1, 11)[:, None] * [0.2, -1.2, -0.5]
-    return hf.certify(path_claim(three, knots, task="planar"))
+    knots = np.array([0.3, 1.6, 0.7]) + np.linspace(0, 1, 7)[:, None] * [0.2, -1.2, -0.5]
+    return hf.certify(path_claim(three, knots, task="planar"), halvings=4)
 
 
 def test_a_panda_finishes_whatever_locks_but_its_elbow(moved, tmp_path):
@@ -81,7 +81,7 @@ def test_closed_form_of_a_planar_arm(bent, tmp_path):
     """Three links of 1 m: after a lock the tool turns about an elbow, or at the end of a longer link, in an annulus."""
     assert whole(hf.check_certificate(bent.write(tmp_path / "a.certificate"))) == bent.ok
     driven, knots = Driven(tmp_path / "a.certificate"), bent.claim.knots
-    at = (np.arange(10 * 64) + 0.5) / 64
+    at = (np.arange(6 * 64) + 0.5) / 64
     healthy = np.array([driven.healthy(s)[0] for s in at])
     angle = np.cumsum(healthy, axis=1)
     tool = np.exp(1j * angle).sum(axis=1)
@@ -209,7 +209,7 @@ def said(key, value):
         recut(moved_by(2, 1)),
         recut(lambda x: x[:-1]),
         recut(lambda x: np.append(x, [1, 2, 0])),
-        put(("during", 1), 9 * SEGMENT),
+        put(("during", 1), 7 * SEGMENT),
         put(("locks", 3, "proved"), "1/1"),
         said("proved", "1/1"),
         said("undecided", "0/1"),
@@ -235,8 +235,8 @@ def test_a_change_that_the_same_cells_prove_is_accepted(moved, tmp_path):
 
 
 def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
-    again = hf.certify(moved.claim)
-    assert again.document["digest"] == moved.document["digest"]
+    claim = path_claim(panda, moved.claim.knots[:3], failures=[0, 2])
+    assert len({hf.certify(claim).document["digest"] for _ in range(2)}) == 1
     file = moved.write(tmp_path / "a.certificate")
     done = subprocess.run(
         [sys.executable, written.alone(tmp_path / "alone"), file], capture_output=True, text=True, check=False

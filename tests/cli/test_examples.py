@@ -24,6 +24,7 @@ FILES = {
     "path.yaml": "line: {from: {xyz: [0.45, -0.1, 0.5]}, to: {xyz: [0.45, 0.1, 0.5]}}\ntiming: {duration: 2}\n",
     "line.yaml": "angles: deg\nline: {from: {xyz: [0.45, -0.1, 0.4], urdf_rpy: [180, 0, 0]}, to: {xyz: [0.45, 0.1, 0.4]}}\n"
     "timing: {duration: 2}\n",
+    "motion.csv": "joint1_rad,joint2_rad,joint3_rad\n0.3,0.8,1.1\n0.35,0.77,1.15\n",
     "bench.yaml": "objects: {table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.6, 0, -0.02]}}}\n",
     "faults.yaml": "faults: [{kind: locked, onset: {uniform: [0.3, 1.5]}}]\n",
     "cell.yaml": "box: {center: [0.5, 0, 0.5], size: 0.1, rpy_center: [180, 0, 0], rpy_size: 10}\nangles: deg\n",

@@ -144,3 +144,5 @@ def test_what_does_not_go_together_is_refused(panda, bounds, healthy):
         hf.diagnosis.diagnose(panda, slow, bounds)
     with pytest.raises(InputError, match=r"factor is 0\.5; it must"):
         hf.diagnosis.calibrate(panda, healthy[:1], factor=0.5)
+    with pytest.raises(InputError, match="'panda_joint1' never departs from its reference"):
+        hf.diagnosis.calibrate(panda, [dataclasses.replace(healthy[0], q_ref=healthy[0].q)])

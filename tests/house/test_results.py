@@ -35,7 +35,7 @@ RESULTS = named(
         "Workspace",
         "bench": "FailActive",
         "ceilings": "Ceiling CeilingSearch CeilingTable",
-        "certificates": "ManipulabilityBound CertificateCheck Refutation Proof StructuralZero TolerantProof",
+        "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
         "designs": "Book Orders Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",

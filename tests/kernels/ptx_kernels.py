@@ -28,7 +28,7 @@ from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
 TABLE = Path(__file__).with_name("ptx_table.csv")
 TARGETS = (70, 80, 90)
 LARGE = 8000  # operations: the assembler takes seconds for one of them
-LARGEST = 30_000  # and minutes from here on
+LARGEST = 25_000  # and minutes from here on
 
 
 def assembler() -> Path | None:

@@ -93,6 +93,9 @@ MADE = {
     "Objective": index,
     "Optima": found(lambda: hf.optimise(arm(), arm().forward_kinematics(X), index(), starts=3)),
     "Path": path,
+    "PathProof": found(
+        lambda: hf.certify(hf.certificates.path_claim(arm(), np.array([[0.3, 0.8, 1.1], [0.4, 0.7, 1.2]]), task="planar"))
+    ),
     "Recovery": recovered,
     "Proof": lambda: proof(),
     "Refutation": found(lambda: hf.certify(hf.certificates.out_of_reach_claim(arm(), (2.9, 1.4), 0.1))),

@@ -165,7 +165,8 @@ def calibrate(
         viscous: (n,) viscous friction, N m s/rad and N s/m; the arm's own if not given.
 
     Raises:
-        InputError: No records, records of another arm or of several rates, or a factor below 1.
+        InputError: No records, records of another arm or of several rates, or that have the measured joints as references; or a
+            factor below 1.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
 
     Source: derived here. That residuals are bounded rather than modelled as noise is measured: they are friction, inertia and
@@ -183,6 +184,12 @@ def calibrate(
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
         found.append(signals_of(arm, log, coulomb=dry, viscous=wet))
     largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
+    same = np.flatnonzero(largest[1].max(axis=0) == 0)
+    if same.size:
+        raise InputError(
+            f"'{arm.joint_names[same[0]]}' never departs from its reference in the records; q_ref must be what the servos "
+            "were to follow, not what the sensors told"
+        )
     alarms: int | None = None
     if len(logs) > 1:
         alarms = 0

@@ -257,7 +257,7 @@ def _higher(rho: list[SX], h: SX, turns: list[bool]) -> tuple[SX, SX]:
 
 
 def _bends(second: Callable[[int, int], SX], h: SX, inner: list[bool], outer: list[bool]) -> SX:
-    """What the second derivatives at the centre make of each row: ``second`` of a joint and one that is no nearer the base."""
+    """What the second derivatives at the centre make of each row: ``second`` of a joint and one as near the base or farther."""
     found = ca.SX(0)
     for i in range(len(outer)):
         for k in range(i + 1):

@@ -90,7 +90,7 @@ class Boxes:
         blocked: Blocked | None,
         way: Array | None = None,
     ) -> None:
-        low, high = (x.copy() for x in limits)
+        low, high = limits[0].copy(), limits[1].copy()
         self.parts = parts = Parts.of(arm, task)
         if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
             turned = pose[:3, :3] @ arm.forward_kinematics((low + high) / 2)[:3, :3].T @ parts.normal
@@ -105,7 +105,9 @@ class Boxes:
         if idle(arm, parts):
             self._unseen[-1] = (high[-1] - low[-1]) / 2
             low[-1] = high[-1] = (low[-1] + high[-1]) / 2
-        self.low, self.high = (low, high) if way is None else (np.append(low, 0.0), np.append(high, 1.0))
+        if way is not None:
+            low, high = np.append(low, 0.0), np.append(high, 1.0)
+        self.low, self.high = low, high
         self.looked_at = self.left_out = 0
 
     def taken(self, stack: list[Array]) -> Array:

@@ -64,7 +64,7 @@ class Conditions:
         if exact is not None:
             raise InputError(
                 f"the task '{task.name}' leaves free what is to be kept exactly ({exact}): prescribe it by the path and a "
-                "task with more rows, such as pointing or pose, or give an angle"
+                "task with more rows, such as pointing or pose" + (", or give an angle" if exact.direction is not None else "")
             )
         return cls(arm=arm, task=task, room=room, keep=tuple(keep), given=given, left=left)
 

@@ -359,10 +359,10 @@ class Endurance(Result):
             )
         elif self.found is not None:
             low, high = self.found.interval
+            within = "within the velocity limits " + ("none is found" if np.isnan(low) else f"the best survives {percent(low)}")
             lines.append(
                 f"no motion survives more than {percent(self.found.bound)}, up to the grid of {len(self.time)} poses and "
-                f"{self.found.spacing:g} rad; over its nodes the best within the velocity limits survives "
-                f"{'none found' if np.isnan(low) else percent(low)}, and {percent(high)} if the spacing comes on top of them"
+                f"{self.found.spacing:g} rad; over its nodes {within}, with the spacing on top of them {percent(high)}"
             )
         if self.keep:
             alone = "" if self._problem.conditions.left else ", by the rows of the path alone"

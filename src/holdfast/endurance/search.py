@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 _ALIKE = 1e-9  # of a probability: less is rounding
 _TRIED = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
-_AXES = 1  # along which the tool is held in a cone, beside the middle of that
+_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
 
 
 @checked
@@ -241,8 +241,7 @@ def _begun_from(problem: Problem, begin: Array | None) -> Iterator[tuple[Problem
         return
     first = problem.first()
     yield from ((problem, q) for q in first)
-    axes = [problem.narrower(cone.direction) for cone in problem.conditions.left[:1] if cone.direction is not None]
-    for narrower in (*axes, *map(problem.narrower_at, first[:_AXES])):
+    for narrower in map(problem.narrower_at, first[:_AXES]):
         if narrower is not None:
             yield from ((narrower, q) for q in narrower.first())
 

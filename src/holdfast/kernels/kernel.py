@@ -34,7 +34,7 @@ def set_backend(name: str | None) -> None:
     """Use a backend for all kernels made from now on; those that arms, indices and laws have made already keep theirs.
 
     Args:
-        name: ``"llvm"``, ``"casadi"``, ``"cuda"`` or ``"cuda:1"`` (see :class:`Kernel`); None: the default again.
+        name: ``"llvm"``, ``"casadi"``, ``"cuda"`` or ``"cuda:1"``, as for :class:`holdfast.kernels.Kernel`; None: the default.
 
     Raises:
         KernelError: It is not known, or there is no such GPU.

@@ -29,7 +29,7 @@ def box_inside(points: Array, inside: NDArray[np.bool_]) -> Array | None:
     if len(good) < 2:
         return None
     away = KDTree(bad).query(good, p=np.inf)[0] if len(bad) else np.zeros(len(good))
-    room = float(np.median(KDTree(points).query(points, k=2, p=np.inf)[0][:, 1])) / 2
+    room = float(np.median(np.asarray(KDTree(points).query(points, k=2, p=np.inf)[0])[:, 1])) / 2
     best, most = None, 0.0
     for seed in np.argsort(-away)[:_SEEDS]:
         box = np.column_stack([good[seed], good[seed]])

@@ -109,7 +109,7 @@ class TolerantWorkspace(Result):
         box = box_inside(self.points[:, : len(rows)], self.inside)
         if box is None:
             raise InputError("too few points are inside to suggest a box; sample more")
-        ranges = {k: (float(low), float(high)) for k, (low, high) in enumerate(self.limits)}
+        ranges: dict[str | int, tuple[float, float]] = {k: (float(a), float(b)) for k, (a, b) in enumerate(self.limits)}
         return tolerant_claim(self.arm, box.mean(axis=1), box[:, 1] - box[:, 0], working_ranges=ranges)
 
     def describe(self) -> list[str]:

@@ -194,7 +194,8 @@ class March:
         """Those of slabs that were given up in which some lock instant, alone, is followed to the end."""
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
-        some = np.asarray(self.following.finishes(locks.ravel())).reshape(-1, 3).any(axis=1)
+        ends = np.asarray(self.following.finishes(locks.ravel())).reshape(-1, 3)
+        some = [bool(any(row)) for row in ends]
         for slab, (begin, middle, stop), good in zip(slabs, locks.tolist(), some, strict=True):
             if not good:
                 self.closed += stop - begin

@@ -32,7 +32,7 @@ def axes_of(jacobian: Array, angles: Array | None = None) -> tuple[Array, Array]
 
     Raises:
         InputError: Another number of rows, numbers that are not finite, a column of zeros, dependent rows, a column of a pose
-            that is no line: ``v.w`` or ``|w| - 1`` beyond 1e-6.
+            that is not a line: ``v.w`` or ``|w| - 1`` beyond 1e-6.
 
     Source: derived here.
     """

@@ -91,7 +91,7 @@ def judge_orders(
         seed: Of the draws.
 
     Raises:
-        InputError: More than 2,520 orders (of more than seven joints) without ``at_most``; columns that are no lines.
+        InputError: More than 2,520 orders (of more than seven joints) without ``at_most``; columns that are not lines.
 
     Source: derived here.
     """

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.certificates.tool_paths.forms import SEGMENT
-from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
+from holdfast.certificates.tool_paths.march import LockedPath
+from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.verifier import per_cent
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story

@@ -1,0 +1,153 @@
+"""W18: what the fault wrapper adds to a step, one step of the monitor, and residuals of a record, beside Pinocchio."""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import argparse
+import statistics
+import time
+
+import numpy as np
+
+import harness
+
+STEPS = 20_000
+RATE = 1000.0
+
+
+def per_call(call, count: int) -> float:
+    """Processor time of one call, us."""
+    start = time.process_time()
+    for _ in range(count):
+        call()
+    return 1e6 * (time.process_time() - start) / count
+
+
+def wrapper(chosen: argparse.Namespace) -> str:
+    """The layer alone: an environment that does nothing, so that its own step does not hide what is added."""
+    import gymnasium
+    import mujoco
+
+    import holdfast as hf
+
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body><joint name='a'/><geom size='.1'/></body></worldbody>"
+        "<actuator><motor joint='a'/></actuator></mujoco>"
+    )
+    nothing = np.zeros(2)
+
+    class Idle(gymnasium.Env):
+        def __init__(self):
+            self.model, self.data = model, mujoco.MjData(model)
+            self.action_space = self.observation_space = gymnasium.spaces.Box(-1, 1, (1,))
+
+        def reset(self, *, seed=None, options=None):
+            return nothing, {}
+
+        def step(self, action):
+            return nothing, 0.0, False, False, {}
+
+    faults = hf.faults.Faults([hf.faults.locked(onset=0.0), hf.faults.weak(gain=0.5, onset=9.0)])
+    bare = gymnasium.Wrapper(Idle())
+    faulty = hf.faults.FaultWrapper(Idle(), faults)
+    faulty.reset()
+    pusher = gymnasium.make("Reacher-v5").unwrapped
+    pusher.reset()
+    action, push = np.zeros(1), np.zeros(2)
+    count = STEPS // 20 if chosen.quick else STEPS
+    added, share = [], []
+    for _ in range(chosen.rounds):
+        more = per_call(lambda: faulty.step(action), count) - per_call(lambda: bare.step(action), count)
+        added.append(more)
+        share.append(100 * more / per_call(lambda: pusher.step(push), count // 20))
+    rows = [
+        ["added to a step, us", f"{statistics.median(added):.2f}", f"{min(added):.2f} to {max(added):.2f}", "bar: 1"],
+        ["of a step of Reacher-v5, %", f"{statistics.median(share):.2f}", f"{min(share):.2f} to {max(share):.2f}", "bar: 1"],
+    ]
+    return harness.table("The wrapper, processor time", ["what", "median", "range", "note"], rows)
+
+
+def with_pinocchio(arm):
+    """A momentum observer as one writes it with Pinocchio: a step of it."""
+    import sys
+    from pathlib import Path
+
+    sys.path.append(str(Path(__file__).parents[1] / "tests"))
+    import pinocchio as pin
+
+    import oracles
+
+    model, _ = oracles.to_pinocchio(arm)
+    data, gain, dt = model.createData(), 40.0, 1 / RATE
+    state = {"s": np.zeros(arm.n), "r": np.zeros(arm.n)}
+
+    def step(q, v, tau):
+        inertia = pin.crba(model, data, q)
+        inertia = np.triu(inertia) + np.triu(inertia, 1).T
+        coriolis = pin.computeCoriolisMatrix(model, data, q, v)
+        gravity = pin.computeGeneralizedGravity(model, data, q)
+        state["s"] = state["s"] + dt * (tau + coriolis.T @ v - gravity + state["r"])
+        state["r"] = gain * (inertia @ v - state["s"])
+        return state["r"]
+
+    return step
+
+
+def monitor(chosen: argparse.Namespace) -> str:
+    """One step, and a record of a minute."""
+    import holdfast as hf
+    from holdfast.diagnosis.observer import momentum_kernel, residuals
+
+    arm, n = hf.arms.load("panda"), 7
+    count = 1_000 if chosen.quick else 60_000
+    g = np.random.default_rng(0)
+    q = 0.3 * np.sin(np.arange(count)[:, None] / RATE * g.uniform(0.5, 1.5, n))
+    tau = arm.gravity_torque(q)
+    log = hf.faults.Log(t=np.arange(count) / RATE, q_ref=q, q=q + g.normal(0, 2e-5, q.shape), tau=tau)
+    watch = hf.diagnosis.Monitor(arm, hf.diagnosis.calibrate(arm, [log, log]))
+    peer, kernel, zero = with_pinocchio(arm), momentum_kernel(arm), np.zeros(n)
+    rates = np.gradient(q, 1 / RATE, axis=0)
+    few = min(count, 2_000)
+
+    def ours():
+        watch.reset()
+        for k in range(few):
+            watch.step(q[k], q[k], tau[k])
+
+    def theirs():
+        for k in range(few):
+            peer(q[k], rates[k], tau[k])
+
+    def whole():
+        residuals(kernel, q, tau, dt=1 / RATE, coulomb=zero, viscous=zero)
+
+    def looped():
+        for k in range(count):
+            peer(q[k], rates[k], tau[k])
+
+    rows = []
+    for what, first, second, size in (
+        ("one step: observer, filters and tests of ours, the observer alone of Pinocchio's", ours, theirs, few),
+        (f"residuals of {count / RATE:g} s at 1 kHz, us a sample", whole, looped, count),
+    ):
+        harness.progress(what)
+        a, b = harness.alternate(first, second, chosen.rounds)
+        ratio = statistics.median(y / x for x, y in zip(a, b, strict=True))
+        each = [f"{1e6 * statistics.median(x) / size:.3g}" for x in (a, b)]
+        rows.append([what, *each, f"{ratio:.3g}", "in Python both"])
+    return harness.table("The monitor, us", ["what", "holdfast", "pinocchio", "holdfast is faster by", "note"], rows)
+
+
+def main() -> None:
+    chosen = harness.options(__doc__)
+    print("## W18: faults\n")
+    print(harness.environment() + "\n")
+    print(wrapper(chosen))
+    print(monitor(chosen))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,41 @@
+"""What is proved is never said without what is undecided beside it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import holdfast as hf
+from holdfast.present.certificates import console
+
+RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
+
+
+def claims(three, panda):
+    ready = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
+    box = np.column_stack([ready - 0.05, ready + 0.05])
+    made = hf.certificates
+    return [
+        made.reach_claim(three, (2.6, 1.2), 0.6),
+        made.tolerant_claim(three, (1.9, 1.9), 0.4, working_ranges=RANGES),
+        made.out_of_reach_claim(three, (2.6, 1.6), 0.4),
+        made.ceiling_claim(panda, box, 0.02),
+        made.floor_claim(panda, box + 0.5, 1e-5),
+    ]
+
+
+def test_proved_and_undecided_go_together(three, panda, tmp_path):
+    for number, claim in enumerate(claims(three, panda)):
+        proof = hf.certify(claim, halvings=2)
+        if getattr(proof, "refuted", False):
+            continue
+        check = hf.check_certificate(proof.write(tmp_path / f"{number}.certificate"), sample=3)
+        for found in (proof, check):
+            story = console.story(found)
+            texts = [
+                " ".join(found.describe()),
+                " ".join(console.to_dict(found)),
+                " ".join([story.answer, *story.lines]),
+                *(" ".join([*rows.head, *(cell for row in rows.rows for cell in row)]) for rows in console.tables(found)),
+            ]
+            for text in texts:
+                assert "undecided" in text.lower() or "proved" not in text.lower(), text
