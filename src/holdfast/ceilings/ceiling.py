@@ -194,7 +194,7 @@ def of_index(index: OfFailures) -> Ceiling | None:
     Of failures of several sizes the largest counts: what locks besides only takes more.
 
     Returns:
-        None where not every set of that many joints is among the failures: then no ceiling for all arms applies.
+        Ceiling, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
     """
     k = max(map(len, index.failures))
     if sum(len(s) == k for s in index.failures) < comb(index.arm.n, k) or index.arm.n > _MOST:

@@ -12,12 +12,13 @@ from holdfast.cli.certify_options import REFUTED, REJECTED
 from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import NOT_MET
 from holdfast.cli.progress import progress_bar
-from holdfast.present.certificates.console import state
 from holdfast.present.results import drawn, printed
 
 
 def proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
     """Search, write, check, draw, print."""
+    from holdfast.present.certificates.console import state
+
     bar = progress_bar(as_json, "ten-thousandths")
     with stopping("") as stop, bar as progress:
         proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)

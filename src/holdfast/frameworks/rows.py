@@ -77,7 +77,7 @@ class Differentiable:
         Inputs are tensors (..., n), and (..., m) for a law's velocity; axes before the last are batches and are broadcast.
         The result, (...) or (..., n), has their type and device. On the processor double-precision tensors are used where they
         are, without a copy, as are those on an NVIDIA GPU by laws and susceptibilities (``holdfast[gpu]``); an index on a GPU
-        goes through the processor. First derivatives are exact, those of :meth:`gradient` or of the law's graph; there are
+        goes through the processor. First derivatives are exact, those of ``gradient`` or of the law's graph; there are
         no second ones. A row with NaN gives NaN.
 
         Raises:

@@ -90,7 +90,7 @@ def synthesise(
 
     Raises:
         InputError: Not exactly one of the three; a task of another number of rows; a null space that is not orthonormal to
-            1e-9; what :func:`holdfast.designs.synthesis.axes.axes_of` refuses; no lines found after all starts.
+            1e-9; a column of a pose that is not a line; no lines found after all starts.
 
     Source: derived here.
     """
