@@ -89,7 +89,7 @@ def certify(
             What is found is the same.
         store: Folder that remembers what is done of such a claim, made if need be: the same call resumes a search that was
             stopped or killed, and ends with the same certificate. None: nothing is remembered.
-        state: Called with a :class:`SearchState`: what is proved, undecided and open.
+        state: Called with a :class:`holdfast.certificates.SearchState`: what is proved, undecided and open.
         progress: Called with what is decided and all, in ten thousandths of the parts' volumes.
         stop: Asked now and then; once it says True, the rest stays undecided.
 
