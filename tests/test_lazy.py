@@ -22,6 +22,7 @@ MODULES = {
     "arms",
     "bench",
     "cell",
+    "ceilings",
     "certificates",
     "closed_form",
     "control",
@@ -33,7 +34,13 @@ MODULES = {
     "registry",
     "susceptibility",
 }  # public modules
-EXTRAS = ("teleop", "studio", "study.cluster", "simulate.mujoco", "arm.mjcf")  # need, or may need, what is not installed
+EXTRAS = (
+    "teleop",
+    "studio",
+    "faults.wrapper",
+    "frameworks.jax",
+    "frameworks.torch",
+)  # need, or may need, what is not installed
 
 CHECK = """
 import inspect, json, sys

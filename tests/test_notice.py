@@ -298,6 +298,7 @@ QUICK = {
     "load": "reads a file",
     "compare_assessments": "compares what is computed",
     "set_threads": "sets a number",
+    "set_backend": "sets a name",
     "susceptibility": "is a module, and a function of one configuration",
     "self_motion": "is one of fibres, which says so",
     "point_to_point": "is a formula",

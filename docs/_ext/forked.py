@@ -51,7 +51,7 @@ def serve() -> None:
     import holdfast
 
     for found in walk_packages(holdfast.__path__, "holdfast."):
-        if not found.name.endswith("__main__"):
+        if not found.name.endswith(("__main__", "jax_rows", "torch_rows")):
             import_module(found.name)
     for name in MODULES:
         import_module(name)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from cards import check_card
 from holdfast.errors import InputError
 from holdfast.faults import FaultEvent, Log
 
@@ -56,6 +57,11 @@ def test_a_fault_is_noticed_and_named(kind, panda, bounds, records):
     if kind == "weak":
         assert found.verdict.loss == pytest.approx(1 - numbers["gain"], abs=0.1)
         assert "gives" in found.describe()[0]
+
+
+def test_a_notebook_shows_both(panda, bounds, records):
+    check_card(bounds, False, arm=panda, log=records["locked"])
+    check_card(hf.diagnosis.diagnose(panda, records["locked"], bounds), True, arm=panda, log=records["locked"])
 
 
 def test_a_push_is_nobodys_fault(panda, bounds, healthy):

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from holdfast.errors import InputError, KernelError
-from holdfast.kernels import BACKENDS, Kernel, default_backend, pool, thread_count
+from holdfast.kernels import Kernel, default_backend, pool, thread_count
+
+BACKENDS = ("llvm", "casadi")  # those of a processor
 
 
 def symbols():
@@ -218,8 +220,8 @@ def test_a_missing_operation_is_named(make, name):
 
 def test_backends_are_chosen_by_name_and_environment(monkeypatch):
     x = ca.SX.sym("x")
-    with pytest.raises(KernelError, match="backend 'cuda' is not known; use one of llvm, casadi"):
-        Kernel("k", [x], [x], backend="cuda")
+    with pytest.raises(KernelError, match="backend 'metal' is not known; use one of llvm, casadi, cuda"):
+        Kernel("k", [x], [x], backend="metal")
     assert default_backend() == "llvm"
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     assert Kernel("k", [x], [2 * x]).backend == "casadi"

@@ -83,6 +83,15 @@ MADE = {
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
     "Configurations": found(lambda: hf.all_configurations(arm(), TARGET, "planar")),
     "ConvergenceMap": lambda: mapped(),
+    "Book": found(hf.designs.records),
+    "Ceiling": found(hf.ceilings.look_up, n=8, m=6, k=2),
+    "CeilingSearch": found(hf.ceilings.search, n=4, m=2, k=2, seconds=0.2),
+    "CeilingTable": found(hf.ceilings.table, 6),
+    "FaultBatch": found(lambda: hf.faults.Faults([hf.faults.weak(gain=0.3, onset=1.0)]).batch(arm(), episodes=2)),
+    "Orders": found(lambda: hf.designs.judge_orders(hf.arms.load("panda").jacobian(np.full(7, 0.4)), samples=20)),
+    "Record": found(hf.designs.record, "pose-9R-k2-001"),
+    "RecordCheck": found(lambda: hf.designs.record("pose-9R-k2-001").check()),
+    "Synthesis": found(lambda: hf.designs.synthesise(hf.ceilings.look_up(n=4, m=2, k=1), task="planar", starts=1)),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
     "Endurance": found(lambda: hf.endure(arm(), timed(), task="planar", samples=5, spacing=0.3)),
     "Law": law,
@@ -119,11 +128,24 @@ MADE = {
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
 WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "StationaryPoints"}
+WITHOUT_FIGURE |= {
+    "Book",
+    "Ceiling",
+    "CeilingSearch",
+    "CeilingTable",
+    "FaultBatch",
+    "Orders",
+    "Record",
+    "RecordCheck",
+    "Synthesis",
+}
 WITHOUT_FIGURE |= {"ManipulabilityBound", "Refutation", "StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
+    "Bounds",
     "ConvergenceDesigns",
     "Designs",
+    "Diagnosis",
     "Execution",
     "FailActive",
     "FreeSwing",

@@ -132,6 +132,8 @@ def certify(
             return motions.proved(claim, halvings, end, stop, tell)
         if isinstance(claim, StructuralZeroClaim):
             return structure.proved(claim)
+        if not isinstance(claim, BoundClaim):
+            raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
         return bounded(claim, halvings, seed, end, stop, tell)
     if workers < 1:
         raise InputError(f"workers is {workers}; it must be 1 or more")

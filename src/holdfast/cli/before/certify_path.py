@@ -22,7 +22,6 @@ from holdfast.cli.options import (
     read_numbers,
 )
 from holdfast.failures.sets import read_failures
-from holdfast.paths.joint_table import joint_columns, read_joint_table
 
 
 def path(
@@ -58,6 +57,8 @@ def path(
 
     Example: holdfast certify path planar-3r motion.csv --task planar --tube 0.0005
     """
+    from holdfast.paths.joint_table import joint_columns, read_joint_table
+
     model = read_arm(arm, base, tip, hold)
     claim = hf.certificates.path_claim(
         model,

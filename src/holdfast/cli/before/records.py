@@ -43,7 +43,7 @@ def check(
     record: Annotated[
         str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)
     ] = None,
-    every: Annotated[bool, typer.Option("--all", help="All records of the book.")] = False,
+    all_: Annotated[bool, typer.Option("--all", help="All records of the book.")] = False,
     json_: JsonOption = False,
 ) -> None:
     """Measure a record again, by code that shares nothing with what found it.
@@ -52,9 +52,9 @@ def check(
 
     Example: holdfast records check pose-9R-k2-001
     """
-    if (record is None) != every:
+    if (record is None) != all_:
         raise InputError("give a record or --all, one of them")
-    found = [r.check() for r in (hf.designs.records().values() if every else [hf.designs.record(str(record))])]
+    found = [r.check() for r in (hf.designs.records().values() if all_ else [hf.designs.record(str(record))])]
     printed_each(found, json_)
     if not all(r.ok for r in found):
         raise typer.Exit(NOT_MET)
