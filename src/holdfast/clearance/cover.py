@@ -15,7 +15,6 @@ from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
@@ -225,9 +224,11 @@ def _body(points: Array, faces: Triangles, owners: tuple[str, ...], cuts: tuple[
 
 def _hollow(points: Array, faces: Triangles, cuts: tuple[tuple[Array, float], ...]) -> float:
     """Mean distance, m, of the surface of the hull from the triangles; what lies in a plane of a cut does not count."""
+    from scipy import spatial  # takes long to import, and is needed once for each shape
+
     try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):  # flat
+        hull = spatial.ConvexHull(points)
+    except (spatial.QhullError, ValueError):  # flat
         return 0.0
     there = _spread(points, hull.simplices.astype(np.int64))
     for normal, offset in cuts:
@@ -237,7 +238,7 @@ def _hollow(points: Array, faces: Triangles, cuts: tuple[tuple[Array, float], ..
     have = np.concatenate([_spread(points, faces), points])
     # Points of one surface are about this far from each other, so from those of the other as well.
     grain = np.sqrt(hull.area / _SAMPLES)
-    return float(np.maximum(cKDTree(have).query(there)[0] - grain, 0).mean())
+    return float(np.maximum(spatial.cKDTree(have).query(there)[0] - grain, 0).mean())
 
 
 def _spread(points: Array, faces: Triangles) -> Array:

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 Array = NDArray[np.float64]
 
@@ -93,6 +92,8 @@ def _improved(points: Array, x: Array) -> Array:
         span = x[3:6] - x[:3]
         pull = span / np.sqrt(span @ span + 1e-12) / 4
         return np.concatenate([-pull, pull, [1.0]])
+
+    from scipy.optimize import minimize  # takes long to import
 
     limits: Any = {"type": "ineq", "fun": room, "jac": slopes}
     found = minimize(size, x, jac=change, constraints=[limits], method="SLSQP", options=_OPTIONS)

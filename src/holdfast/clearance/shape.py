@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
@@ -113,10 +112,12 @@ def hull_of(piece: Piece) -> Hull:
     Raises:
         ArmError: It is flat.
     """
+    from scipy import spatial  # takes long to import, and is needed once for each shape
+
     vertices, faces = corners(piece), piece.faces
     try:
-        found = ConvexHull(vertices)
-    except (QhullError, ValueError) as error:
+        found = spatial.ConvexHull(vertices)
+    except (spatial.QhullError, ValueError) as error:
         raise ArmError(f"'{piece.name}' of link '{piece.owner}' is flat or has no volume; it cannot collide") from error
     order = np.full(len(vertices), -1)
     order[found.vertices] = np.arange(len(found.vertices))

@@ -67,7 +67,8 @@ class Exactness:
         bound = np.minimum(self._alone[0](q), self._around.least(q))
         found = np.asarray(bound >= CONTACT)
         (left,) = np.nonzero(bound < CONTACT)
-        left = left[self._within.least(q[left]) >= -CONTACT]
+        if self.obstacles is not None:
+            left = left[self._within.least(q[left]) >= -CONTACT]
         if left.size:
             found[left] = ~contacts.any(q[left], self._bounds(q[left], near=False))
         return found
