@@ -53,7 +53,7 @@ nitpick_ignore_regex = [
     # What a run keeps so that it can be run again.
     (r"py:class", r"_?Motion|Setting|RestSystem|holdfast\.endurance\.problem\.Problem"),
     (r"py:class", r"holdfast\.control\.export\._Law"),
-    (r"py:class", r"holdfast\.certificates\.proof\.Halved"),
+    (r"py:class", r"holdfast\.certificates\.proof\.(Halved|InParts)"),
     (
         r"py:class",
         r"holdfast\.(faults\.(scheme\.Jointed|spread\.Spread|kinds\.When)|diagnosis\.signals\.(Scaled|Signals)|ceilings\.ceiling\.OfFailures|designs\.book\.entries\.RecordFile|certificates\.tool_paths\.march\.LockedPath)|Tolerance",

@@ -78,44 +78,26 @@ class Proof(Halved):
         ]
 
 
-@dataclass(frozen=True, kw_only=True)
-class TolerantProof(Result):
-    """What the prover found for a failure-tolerant box. It is not verified: :func:`check_certificate` does that.
+class InParts(Result):
+    """What the searches for the parts of a claim found. It is not verified: :func:`check_certificate` does that."""
 
-    Attributes:
-        claim: What was asked.
-        parts: Of the healthy arm, then of each lock of the claim.
-    """
-
-    claim: TolerantClaim
-    parts: tuple[Proof, ...]
+    __slots__ = ()
+    parts: tuple[Any, ...]
 
     @property
     def ok(self) -> bool:
         """True if nothing is undecided."""
-        return all(part.ok for part in self.parts)
-
-    @property
-    def worst(self) -> Proof:
-        """The part of which most is undecided."""
-        return max(self.parts, key=lambda part: part.undecided)
+        return self.undecided == 0
 
     @property
     def proved(self) -> Fraction:
-        """Exact share of targets and locked angles that is proved in the worst part."""
-        return self.worst.proved
+        """Exact share that is proved, of the part of which least is."""
+        return Fraction(min(part.proved for part in self.parts))
 
     @property
     def undecided(self) -> Fraction:
         """The rest of it."""
-        return self.worst.undecided
-
-    @cached_property
-    def tolerant(self) -> Fraction:
-        """At least this share of the targets is proved while healthy, and for every lock at every locked angle."""
-        count = len(self.claim.box)
-        unproved = {cell[:count] for part in self.parts for cell in documents.undecided(part.document)}
-        return 1 - verifier.covered(unproved, [verifier.MOST_STEPS])
+        return 1 - self.proved
 
     @property
     def leaves(self) -> int:
@@ -135,7 +117,32 @@ class TolerantProof(Result):
     @property
     def seconds(self) -> float:
         """Measured."""
-        return sum(part.seconds for part in self.parts)
+        return float(sum(part.seconds for part in self.parts))
+
+
+@dataclass(frozen=True, kw_only=True)
+class TolerantProof(InParts):
+    """What the prover found for a failure-tolerant box. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        claim: What was asked.
+        parts: Of the healthy arm, then of each lock of the claim.
+    """
+
+    claim: TolerantClaim
+    parts: tuple[Proof, ...]
+
+    @property
+    def worst(self) -> Proof:
+        """The part of which most is undecided."""
+        return max(self.parts, key=lambda part: part.undecided)
+
+    @cached_property
+    def tolerant(self) -> Fraction:
+        """At least this share of the targets is proved while healthy, and for every lock at every locked angle."""
+        count = len(self.claim.box)
+        unproved = {cell[:count] for part in self.parts for cell in documents.undecided(part.document)}
+        return 1 - verifier.covered(unproved, [verifier.MOST_STEPS])
 
     def named(self, part: Proof) -> str:
         """``healthy``, or the joint that locks in a part."""

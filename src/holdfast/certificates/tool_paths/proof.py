@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ROWS
-from holdfast.certificates.proof import early, written
+from holdfast.certificates.proof import InParts, early, written
 from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import Following
 from holdfast.certificates.tool_paths.march import LockedPath, March
 from holdfast.certificates.tree import SearchState, Tell
-from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Span = tuple[int, int]
@@ -30,7 +29,7 @@ _SLICE = 2.0  # s on a lock, then on the next, so that one that is stopped has s
 
 
 @dataclass(frozen=True, kw_only=True)
-class PathProof(Result):
+class PathProof(InParts):
     """What the search for motions found. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
@@ -44,45 +43,10 @@ class PathProof(Result):
     document: dict[str, Any]
 
     @property
-    def ok(self) -> bool:
-        """True if nothing is undecided."""
-        return self.undecided == 0
-
-    @property
-    def proved(self) -> Fraction:
-        """Exact part of the lock instants that is proved, of the lock of which least is."""
-        return min(part.proved for part in self.parts)
-
-    @property
-    def undecided(self) -> Fraction:
-        """The rest of it."""
-        return 1 - self.proved
-
-    @property
     def tolerant(self) -> Fraction:
         """Exact part of the lock instants that is proved whichever joint locks."""
         left = [gap for part in self.parts for gap in self.gaps(part)]
         return 1 - verifier.paths.share(left, self.document)
-
-    @property
-    def leaves(self) -> int:
-        """Cells that are proved."""
-        return sum(part.leaves for part in self.parts)
-
-    @property
-    def nodes(self) -> int:
-        """Cells that were looked at."""
-        return sum(part.nodes for part in self.parts)
-
-    @property
-    def finished(self) -> bool:
-        """False if the search was stopped."""
-        return all(part.finished for part in self.parts)
-
-    @property
-    def seconds(self) -> float:
-        """Measured."""
-        return sum(part.seconds for part in self.parts)
 
     def gaps(self, part: LockedPath) -> list[Span]:
         """Undecided intervals of lock instants."""
