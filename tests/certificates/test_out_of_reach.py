@@ -142,7 +142,13 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
         moved = [part.frames(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
         true = np.linalg.norm(moved, axis=2)
         pairs = [(part.nearest(q, half, x, wide)[0], part.farthest(q, half, x, wide)[0])]
-        document = {"arm": documents._stored(arm), "limits": [["-0x1.8p+1", "0x1.8p+1"]] * 5, "locked": -1, "lemmas": [], "task": "position"}
+        document = {
+            "arm": documents._stored(arm),
+            "limits": [["-0x1.8p+1", "0x1.8p+1"]] * 5,
+            "locked": -1,
+            "lemmas": [],
+            "task": "position",
+        }
         leaves = verifier.Apart(document | {"target": {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None}})
         joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
         seen, lengths = leaves.moved(joints, first, end), leaves.lengths(first, last, end)

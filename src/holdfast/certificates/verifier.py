@@ -3,8 +3,8 @@
 The file holds a bisection tree, and for each leaf of it what makes a proof easy: a configuration near the targets, or a joint
 whose lock costs enough. The search that found it may be wrong; here every leaf is proved again, in balls (true numbers, and how
 far from them doubles are at most), from exact first and second derivatives and a bound for the third. What a leaf shows is
-said at the top of a module beside this file: ``targets`` (reached), ``distances`` (out of reach), ``wrenches`` (a ceiling of
-relative manipulability), ``floors``, ``zeros`` (structural zeros), ``motions`` (paths). ``files`` is the form of the file,
+said at the top of a module beside this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds`` (ceilings
+and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` is the form of the file,
 ``words`` what it claims, ``tree`` which cells it has, ``chain`` and ``rows`` the arm and its task.
 """
 
@@ -35,10 +35,10 @@ except ImportError:  # told when a file is to be checked: the sentence of a clai
 if TYPE_CHECKING or __package__:
     from holdfast.certificates.verified import motions as motions
     from holdfast.certificates.verified import paths as paths
+    from holdfast.certificates.verified.bounds import Motions, Wrenches
     from holdfast.certificates.verified.distances import Apart
     from holdfast.certificates.verified.files import first_file
     from holdfast.certificates.verified.files import load as load
-    from holdfast.certificates.verified.floors import Motions
     from holdfast.certificates.verified.forms import FOR_PEOPLE as FOR_PEOPLE
     from holdfast.certificates.verified.forms import Refused, need, real, unpacked
     from holdfast.certificates.verified.forms import digest as digest
@@ -46,20 +46,18 @@ if TYPE_CHECKING or __package__:
     from holdfast.certificates.verified.tree import MOST_LEAVES, MOST_STEPS, PROVED, SPLIT, Cell, cells, covered, volume
     from holdfast.certificates.verified.words import per_cent
     from holdfast.certificates.verified.words import sentence as sentence
-    from holdfast.certificates.verified.wrenches import Wrenches
     from holdfast.certificates.verified.zeros import exact_rotation as exact_rotation
     from holdfast.certificates.verified.zeros import meeting
     from holdfast.certificates.verified.zeros import snap as snap
 else:  # run as a file: the folder lies beside it
     from verified import motions, paths
+    from verified.bounds import Motions, Wrenches
     from verified.distances import Apart
     from verified.files import first_file, load
-    from verified.floors import Motions
     from verified.forms import Refused, need, real, unpacked
     from verified.targets import Leaves
     from verified.tree import MOST_LEAVES, MOST_STEPS, PROVED, SPLIT, Cell, cells, covered, volume
     from verified.words import per_cent
-    from verified.wrenches import Wrenches
     from verified.zeros import meeting
 
 CHUNK = 256

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from . import paths
+from .bounds import SIX
 from .forms import (
     COMMON,
     HASH,
@@ -29,7 +30,6 @@ from .forms import (
 )
 from .rows import TASKS
 from .words import sentence
-from .wrenches import SIX
 
 MOST_JOINTS = 64
 
