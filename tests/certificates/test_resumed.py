@@ -101,7 +101,7 @@ def asked(kind, three, flat4):
         return made.path_claim(three, BEND, task="planar", failures=[0, 1]), 3
     if kind == "out-of-reach":
         return made.out_of_reach_claim(three, (2.5, 1), 0.2, locked={1: (1.45, 1.75)}), 16
-    return made.floor_claim(flat4, FOUR, 0.2, task="planar-pose"), 12
+    return made.floor_claim(flat4, FOUR, 0.146, task="planar-pose"), 12
 
 
 @pytest.mark.parametrize("kind", ["path", "out-of-reach", "floor"])

@@ -32,7 +32,7 @@ class Found(Protocol):
 
     @property
     def finished(self) -> bool:
-        """Whether it has come to its end."""
+        """Whether nothing is open, but for what is left to others."""
 
     @property
     def state(self) -> SearchState:
@@ -54,7 +54,7 @@ class Running(Protocol):
 
     @property
     def finished(self) -> bool:
-        """Whether it has come to its end."""
+        """Whether nothing is open, but for what is left to others."""
 
     @property
     def state(self) -> SearchState:
@@ -154,7 +154,7 @@ class Crew:
             self._keep(job, job.read(known))
 
     def _keep(self, job: Job, found: Found) -> None:
-        """What a job has come to, and the jobs that it leaves."""
+        """What a job found, and the jobs that it leaves."""
         self._found[job.name] = found
         if self._memory is not None and found.finished and self._memory.known(job.name) is None:
             self._memory.keep(job.name, found.stored())

@@ -127,8 +127,8 @@ def certify(
         return structure.proved(claim)
     if not isinstance(claim, ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | PathClaim):
         raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
-    parts = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
-    plan = {"kind": "certify", "claims": [documents.said(one) for one in parts], "halvings": halvings, "seed": seed}
+    asked = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
+    plan = {"kind": "certify", "claims": [documents.said(one) for one in asked], "halvings": halvings, "seed": seed}
     memory = None if store is None else Memory(store, plan)
     effort = Effort(end=end, stop=stop, tell=tell, workers=workers, memory=memory)
     if isinstance(claim, OutOfReachClaim):
@@ -137,6 +137,7 @@ def certify(
         return motions.proved(claim, halvings, effort)
     if isinstance(claim, BoundClaim):
         return bounded(claim, halvings, seed, effort)
+    parts = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
     found = effort.found([Job(part, halvings, seed, k) for k, part in enumerate(parts)])
     proofs = tuple(_proof(*pair) for pair in zip(parts, found, strict=True))
     return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]

@@ -134,7 +134,7 @@ def out_of_reach(
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, **how)
+    proved(claim, out, check, json_, None, **how)
 
 
 @command.command()
@@ -233,7 +233,7 @@ def ceiling(
         task=task,
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, **how)
+    proved(claim, out, check, json_, None, **how)
 
 
 @command.command()
@@ -275,7 +275,7 @@ def floor(
         task=task,
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, **how)
+    proved(claim, out, check, json_, None, **how)
 
 
 command.command()(path)
