@@ -13,6 +13,7 @@ from written import put, shifted
 import holdfast as hf
 import oracles
 from holdfast.certificates import documents, out_of_reach_claim, verifier
+from holdfast.certificates.crew import Effort
 from holdfast.certificates.joint_boxes import exclusion
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain
@@ -114,7 +115,7 @@ def test_no_configuration_is_excluded_with_its_own_target(arm, rng, tmp_path, mo
     where, size = {3: ((2.0, 1.6), 0.8), 7: ((0.55, 0.1, 0.75), 0.3)}[arm.n]
     claim = out_of_reach_claim(arm, where, size, locked={3 % arm.n or 1: (-2.0, -1.2)} if arm.n == 7 else {1: (0.4, 1.2)})
     batches = count()
-    found = exclusion.exclude(claim, 5, 0, np.inf, lambda: next(batches) > 12, lambda _: None)
+    found = exclusion.exclude(claim, 5, 0, Effort(stop=lambda: next(batches) > 12))
     assert 0 < found.undecided < 1
     ranges = exclusion.ranges(claim)
     q = rng.uniform(*ranges.T, (40_000, arm.n))
