@@ -16,7 +16,7 @@ from holdfast.caching import cached_property
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.conditions import Conditions, with_axis
+from holdfast.endurance.conditions import Conditions, task_jacobian, with_axis
 from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
@@ -37,6 +37,7 @@ ON = 1e-3  # m and rad that a configuration given may be off the path
 _IMMOBILE = 1e-9  # rad and m between the limits of a joint that does not move, or in a motion
 _SETS = 24  # of joints that a failed arm may hold
 _FIRST, _STARTS = 3, 64  # configurations of the first pose that are tried, of so many starts
+_RANK = 1e-6  # of the largest singular value
 _COARSE, _FEWEST = 0.15, 11  # rad between nodes, and poses, of what is only tried
 
 
@@ -92,6 +93,15 @@ class Problem:
         every = list(combinations(mobile, self.spare - 1))
         order = np.random.default_rng(np.random.SeedSequence(self.seed)).permutation(len(every))
         return [every[k] for k in order[:_SETS]]
+
+    def leaves_one(self, q: Array, others: Sequence[int]) -> bool:
+        """Whether one degree of redundancy is left at q (n,) if other joints stay there.
+
+        More are left where one of them could not move anyway, such as a roll joint that the tool's axis sets.
+        """
+        mobile = [k for k in range(self.arm.n) if k not in self.immobile and k not in others]
+        size = np.linalg.svd(task_jacobian(self.arm, self.task, q[None])[0][:, mobile], compute_uv=False)
+        return bool(size[-1] > _RANK * size[0])
 
     def narrower(self, axis: Array) -> Problem | None:
         """The same with the axis of the tool that a cone leaves free held along ``axis`` (3,), a unit vector in the world.

@@ -204,6 +204,8 @@ def _holding(problem: Problem, begin: Array | None) -> Endurance:
     for asked, q in each("configurations of the first pose", list(_begun_from(problem, begin))):
         coarse = asked.coarser()
         for joints in asked.sets:
+            if not asked.leaves_one(q, joints):  # no curves, and their tracing has no end
+                continue
             values = {k: float(q[k]) for k in joints}
             try:
                 within, over = _Curves(coarse.holding(values), begin).most
