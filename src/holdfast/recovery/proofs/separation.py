@@ -1,4 +1,4 @@
-"""That no motion leads from where the arm is to the goal, or to the beginning of a tool path, and how exactly that is known."""
+"""That no motion leads to the goal, or to the beginning of a tool path, and how exactly that is known."""
 
 from __future__ import annotations
 
