@@ -33,6 +33,7 @@ PRESENTERS = {
     "Endurance": ("endurance.console", "endurance.page"),
     "Execution": ("physics.execution", "physics.execution"),
     "FaultBatch": ("faults.console", ""),
+    "FaultRun": ("reaction.console", "reaction.page"),
     "FreeSwing": ("physics.swing", "physics.swing"),
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
