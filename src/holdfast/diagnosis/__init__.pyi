@@ -4,6 +4,6 @@ from holdfast.diagnosis.bounds import calibrate as calibrate
 from holdfast.diagnosis.bounds import load as load
 from holdfast.diagnosis.kinds import Verdict as Verdict
 from holdfast.diagnosis.monitor import Monitor as Monitor
-from holdfast.diagnosis.monitor import Sensors as Sensors
 from holdfast.diagnosis.monitor import diagnose as diagnose
 from holdfast.diagnosis.rehearsal import rehearse as rehearse
+from holdfast.diagnosis.sensors import Sensors as Sensors
