@@ -73,7 +73,6 @@ class Controller:
         self._nearest = np.inf
         self._alarm = self._settled = self._quiet = np.inf
         self._decided = False
-        self._eased: str | None = None
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
         self._poses: list[tuple[Array, Array]] = []
         self._planned: Planned | None = None
@@ -141,10 +140,9 @@ class Controller:
         """
         if self._decided or self.over:
             return
-        if self._eased is not None:  # after a contact
-            if time > self._quiet:
-                self._act(time, "resume", "nothing pushes any more")
-                self.pace, self._eased, self._alarm = 1.0, None, np.inf
+        if time > self._quiet:
+            self._act(time, "resume", "nothing more was seen")
+            self.pace, self._decided = 1.0, True
             return
         if not verdict.alarm:
             return
@@ -156,8 +154,9 @@ class Controller:
                 return
         if verdict.joint is None:
             if verdict.kind == "contact":
-                self._eased, self._quiet, self.pace = "contact", time + QUIET, SLOW
-                self._act(time, "slow", "something pushes the arm, and no joint is to blame")
+                if np.isinf(self._quiet):
+                    self._quiet, self.pace = time + QUIET, SLOW
+                    self._act(time, "slow", "something pushes the arm, and no joint is to blame")
             elif time > self._alarm + NAMED:
                 self._stop(time, "the joint is not known")
             return

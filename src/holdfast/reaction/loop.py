@@ -256,7 +256,7 @@ def _drive(robot: _Robot, controller: Controller, law: MaskedLaw, monitor: Monit
         torque = robot.move(told, rates, law.mask)
         robot.note(true, told, torque, pose, off)
         if monitor is not None and not controller.reacted:
-            verdict = monitor.step(told, robot.reference, torque)
+            verdict = monitor.step(told, robot.reference, torque, pose=pose)
             behind = robot.reference - told
             controller.hear(time, verdict, behind=behind, v=robot.v, wanted=rates, gravity=robot.gravity)
         speed = float(np.abs(robot.data.qvel).max())
