@@ -232,8 +232,8 @@ def main() -> None:
         "",
         f"Each task is of a robot of its own (masses and friction up to 20 % off the model), half of them positions, half "
         f"poses, {AWAY[0]:g} to {AWAY[1]:g} m away; the healthy robot reaches it within {LIMIT:g} s. One fault begins after "
-        f"{ONSET[0]:g} to {ONSET[1]:g} s. Law: damped inverse, {SPEED:g} m/s, joints drawn to their middle at {CENTRING:g}/s but "
-        "in one column, and kept at their limits. Finished: the true tool within 5 mm and 1 deg for 0.2 s, after "
+        f"{ONSET[0]:g} to {ONSET[1]:g} s. Law: damped inverse, {SPEED:g} m/s, joints drawn to their middle at {CENTRING:g}/s "
+        "but in one column, and kept at their limits. Finished: the true tool within 5 mm and 1 deg for 0.2 s, after "
         f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with 95 % intervals.",
         "",
         *table(rows),

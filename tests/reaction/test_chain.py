@@ -24,7 +24,9 @@ def law():
 def monitor(law):
     goals = GOAL + np.array([[0, 0, 0], [0.1, 0, -0.1], [0, -0.6, 0], [0, -0.2, 0.1]])
     logs = [hf.simulate_faults(law, START, goal, body=BODY, seed=k).require_ok().log() for k, goal in enumerate(goals)]
-    return hf.diagnosis.Monitor(law.arm, hf.diagnosis.calibrate(law.arm, logs, factor=2.0, coulomb=[0.5] * 7, viscous=[0.3] * 7))
+    return hf.diagnosis.Monitor(
+        law.arm, hf.diagnosis.calibrate(law.arm, logs, factor=2.0, coulomb=[0.5] * 7, viscous=[0.3] * 7)
+    )
 
 
 def run(law, *faults, **options):
@@ -94,8 +96,8 @@ def test_where_the_law_ends_off_its_target_a_route_is_planned_and_followed(law):
     made = [hf.simulate_faults(law, start, goal, faults=faults, body=BODY, react="known", plan=plan) for plan in (False, True)]
     assert [one.outcome for one in made] == ["missed", "reached"]
     assert made[1].actions[-1].what == "plan"
-    assert (made[1].q >= law.arm.lower - 0.02).all()
-    assert (made[1].q <= law.arm.upper + 0.02).all()
+    assert (made[1].q >= law.arm.lower - 0.03).all()
+    assert (made[1].q <= law.arm.upper + 0.03).all()
 
 
 def test_a_healthy_run_as_a_record_is_its_own_measurement(law):

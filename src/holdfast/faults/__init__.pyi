@@ -21,4 +21,5 @@ from holdfast.faults.kinds import weak as weak
 from holdfast.faults.log import Log as Log
 from holdfast.faults.scheme import Faults as Faults
 from holdfast.faults.scheme import load as load
+from holdfast.faults.vector import FaultVectorEnv as FaultVectorEnv
 from holdfast.faults.wrapper import FaultWrapper as FaultWrapper
