@@ -37,6 +37,7 @@ MODULES = {
 EXTRAS = (
     "teleop",
     "studio",
+    "faults.vector",
     "faults.wrapper",
     "frameworks.jax",
     "frameworks.torch",

@@ -31,7 +31,7 @@ def named(classes):
 RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance Execution "
-        "FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
+        "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
         "Workspace",
         "bench": "FailActive",
         "ceilings": "Ceiling CeilingSearch CeilingTable",
@@ -71,6 +71,7 @@ VALUES = named(
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
+        "reaction": "Action",
         "recovery": "Leg RestOfPath RowsGivenUp TimedMotion Verdict Verification",
         "shapes": "Piece",
         "simulation": "Path",
@@ -83,7 +84,7 @@ THAWED = {"probability.Distribution"}  # values that are not frozen yet
 # Arms, tasks, settings: what an analysis is asked with.
 INPUTS = named(
     {
-        "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
+        "": "Arm Body Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "bench": "Case",
         "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",

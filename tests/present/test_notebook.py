@@ -148,6 +148,7 @@ ELSEWHERE = {
     "Diagnosis",
     "Execution",
     "FailActive",
+    "FaultRun",
     "FreeSwing",
     "Merged",
     "Orbit",

@@ -109,6 +109,9 @@ class FaultInjector:
         if isinstance(given, Faults):
             self.events = given.draw(self.joints, episode=episode, horizon=self.horizon)
         else:
+            wrong = next((x for x in given if not isinstance(x, FaultEvent)), None)
+            if wrong is not None:
+                raise InputError(f"one of the faults is {wrong!r}; give a holdfast.faults.Faults, or FaultEvents")
             self.events = FaultEvents(given)
         for event in self.events:
             self._check(event)

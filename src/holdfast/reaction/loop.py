@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,6 +100,8 @@ def simulate_faults(
         raise InputError(f"time_limit is {time_limit:g}; it must be a finite number of seconds above 0")
     if not 0 <= centring < np.inf:
         raise InputError(f"centring is {centring:g}; it must be a finite number of 0 or more, 1/s")
+    if react is not None and react not in get_args(React):
+        raise InputError(f"react '{react}' is not known; use {', '.join(get_args(React))}")
     how: React = react or ("none" if monitor is None else "chain")
     if how in ("stop", "chain") and monitor is None:
         raise InputError(f"react='{how}' needs a monitor, which says what is wrong; make one by holdfast.diagnosis.Monitor")
