@@ -31,8 +31,8 @@ def named(classes):
 RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance Execution "
-        "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
-        "Workspace",
+        "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
+        "Trajectory Workspace",
         "bench": "FailActive",
         "ceilings": "Ceiling CeilingSearch CeilingTable",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",

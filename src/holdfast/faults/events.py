@@ -74,7 +74,7 @@ class FaultEvents(tuple[FaultEvent, ...]):
             stays = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
             if not stays or event.parameters.get("at", "here") != "here":
                 raise InputError(
-                    f"'{event.sentence()}' is not a lock for good where the joint is, which is all that rates can show; add "
+                    f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
                     "--physics, or use holdfast.simulate_faults"
                 )
             times.setdefault(event.joint, event.onset)
