@@ -33,6 +33,7 @@ NAMED = 2.0  # s after the alarm by which the joint must be known
 FINAL = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
 SLACK = 3e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
 RAMP = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
+ACCELERATION = 10.0  # rad/s^2 or m/s^2, of commanded rates
 IDLE = 1e-3  # rad/s and m/s: a law that commands less is at its end
 NEARER, PATIENCE = 1e-3, 1.5  # m and rad, s: so is one that does not bring the tool so much nearer in this time
 _EASED = frozenset({"weak", "friction", "sluggish"})
@@ -77,6 +78,8 @@ class Controller:
         self._poses: list[tuple[Array, Array]] = []
         self._planned: Planned | None = None
         self._effort = np.array([joint.effort for joint in self.arm.joints])
+        self._most = np.array([joint.velocity for joint in self.arm.joints])
+        self._commanded = np.zeros(self.arm.n)
 
     @property
     def reacted(self) -> bool:
@@ -99,7 +102,20 @@ class Controller:
         return q
 
     def rates(self, time: float, told: Array) -> Array:
-        """Commanded rates (n,), rad/s and m/s."""
+        """Commanded rates (n,), rad/s and m/s: smooth, within the velocity limits, and slower towards the ends of the range."""
+        q, dt = self.believed(told), time - self._time
+        wanted = self._wanted(time, told)
+        if not np.isfinite(wanted).all():
+            wanted = np.zeros(self.arm.n)
+        wanted = wanted / max(1.0, float((np.abs(wanted) / self._most).max()))
+        low, high = (np.sqrt(2 * ACCELERATION * np.maximum(room, 0.0)) for room in (q - self.arm.lower, self.arm.upper - q))
+        wanted = np.minimum(np.maximum(wanted, -low), high)
+        change = ACCELERATION * dt
+        self._commanded = self.law.mask * np.clip(wanted, self._commanded - change, self._commanded + change)
+        return self._commanded
+
+    def _wanted(self, time: float, told: Array) -> Array:
+        """What the law or the route asks for."""
         q = self._last = self.believed(told)
         most = RAMP * (time - self._time)
         self._time, self._pace = time, self._pace + min(max(self.pace - self._pace, -most), most)

@@ -58,10 +58,10 @@ def simulate_faults(
 ) -> FaultRun:
     """One run of the closed loop in MuJoCo: joints fail, are noticed, and the task goes on (needs ``holdfast[physics]``).
 
-    At every control cycle the law is given what the joint sensors tell, and its rates go to the servos, whose torques move a
-    body that is not quite the arm's model. The law keeps the joints at their limits. Faults begin and end by the model's
-    fields. A monitor sees what a robot would: joint sensors, references, commanded torques, and 100 times a second the tool's
-    measured pose. What follows from what it says (``react="chain"``):
+    At every control cycle the law is given what the joint sensors tell, and its rates, kept within the joints' limits and
+    speeds and 10 rad/s^2, go to the servos, whose torques move a body that is not quite the arm's model. Faults begin and end
+    by the model's fields. A monitor sees what a robot would: joint sensors, references, commanded torques, and 100 times a
+    second the tool's measured pose. What follows from what it says (``react="chain"``):
 
     * a joint that does not move while its reference goes on, or runs away, is braked 20 ms after the alarm and left out of
       the law; so is one that is found to be locked, free-swinging, with a faulty sensor, or to have a fault of an unknown
@@ -254,8 +254,6 @@ def _drive(robot: _Robot, controller: Controller, law: MaskedLaw, monitor: Monit
         if pose is not None:
             controller.feel(time, told, pose)
         rates = controller.rates(time, told)
-        if not np.isfinite(rates).all():
-            rates = np.zeros(len(rates))
         torque = robot.move(told, rates, law.mask)
         robot.note(true, told, torque, pose, off)
         if monitor is not None and not controller.reacted:
