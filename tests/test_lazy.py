@@ -37,8 +37,8 @@ MODULES = {
 EXTRAS = (
     "teleop",
     "studio",
-    "faults.vector",
-    "faults.wrapper",
+    "faults.learning.vector",
+    "faults.learning.wrapper",
     "frameworks.jax",
     "frameworks.torch",
 )  # need, or may need, what is not installed

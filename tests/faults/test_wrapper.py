@@ -101,3 +101,40 @@ def test_a_weak_motor_must_carry_the_arm():
     assert none.answer == "not found"
     assert "gravity asks more" in none.why
     assert feasible(panda, goal, {FaultEvent("limp", "panda_joint4", 0.0): -1.8}).answer == "yes"  # its brake holds it
+
+
+def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
+    faults = hf.faults.Faults([hf.faults.sensor_bias(["joint1"], bias=0.25, onset=0.05)], seed=2)
+    wrapped = FaultWrapper(reacher, faults, joints=["joint0", "joint1"], record=tmp_path / "runs", observes={"joint1": ()})
+    data, true = wrapped.unwrapped.data, []
+    for episode in (3, 5):
+        wrapped.reset(seed=episode, options={"episode": episode})
+        for _ in range(50 if episode == 3 else 7):
+            wrapped.step(np.full(2, 0.1, dtype=np.float32))
+            true.append([data.time, *data.qpos[:2], *data.qfrc_actuator[:2]])
+    wrapped.close()
+    first, second = hf.faults.recorded(tmp_path / "runs")
+    assert [(e.episode, e.seed, e.outcome, e.feasible) for e in (first, second)] == [
+        (3, 3, "truncated", "unknown"),
+        (5, 5, "left", "unknown"),
+    ]
+    assert first.events == faults.draw(["joint0", "joint1"], episode=3)
+    assert first.id == first.events.id
+    log, expected = first.log(), np.array(true[:50])
+    assert log.t == pytest.approx(expected[:, 0], abs=1e-12)
+    # It begins with the step after 0.05 s, and is told at the end of that.
+    # It begins with the step after 0.05 s, and is told at the end of that.
+    sign = np.sign(first.events[0].parameters["bias"])
+    wrong = np.where(log.t[:, None] >= 0.08 - 1e-9, [0.0, 0.25 * sign], 0.0)
+    assert log.q == pytest.approx(expected[:, 1:3] + wrong, abs=1e-6)
+    assert log.tau == pytest.approx(expected[:, 3:], abs=1e-6)
+    assert np.isnan(log.q_ref).all()  # torque motors follow no reference
+    assert len(second.log().t) == 7
+    with np.load(first.file) as arrays:
+        assert arrays["reward"].shape == (50,)
+        assert arrays["action"] == pytest.approx(0.1)
+    (tmp_path / "runs" / "episodes.jsonl").write_text("{", encoding="utf-8")
+    with pytest.raises(InputError, match="line 1 of"):
+        hf.faults.recorded(tmp_path / "runs")
+    with pytest.raises(InputError, match=r"has no episodes\.jsonl"):
+        hf.faults.recorded(tmp_path)

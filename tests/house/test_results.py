@@ -64,7 +64,7 @@ VALUES = named(
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "diagnosis": "Verdict",
-        "faults": "Feasibility",
+        "faults": "Episode Feasibility",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
         "frameworks": "RowFunction",

@@ -132,6 +132,11 @@ class FaultInjector:
         return self._motors.of(self.joints.index(joint))
 
     @property
+    def dofs(self) -> NDArray[np.int64]:
+        """(n,) numbers of the joints' degrees of freedom in the model."""
+        return np.asarray(self._dofs)
+
+    @property
     def places(self) -> dict[FaultEvent, float]:
         """Where the joints of the active events were when these began, rad or m."""
         return {one.event: one.place for one in self._active}

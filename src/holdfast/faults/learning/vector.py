@@ -12,8 +12,8 @@ from holdfast.control.law import Law
 from holdfast.errors import HoldfastError, InputError
 from holdfast.faults.batch import batch_of
 from holdfast.faults.events import FaultEvents
+from holdfast.faults.learning.stepping import NEVER, STATE, kernel_rows, step_kernel
 from holdfast.faults.scheme import Faults
-from holdfast.faults.stepping import NEVER, STATE, kernel_rows, step_kernel
 
 try:
     from gymnasium.vector import VectorEnv
