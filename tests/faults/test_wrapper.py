@@ -138,3 +138,28 @@ def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
         hf.faults.recorded(tmp_path / "runs")
     with pytest.raises(InputError, match=r"has no episodes\.jsonl"):
         hf.faults.recorded(tmp_path)
+
+
+def test_in_an_environment_of_gymnasium_robotics():
+    """A lock holds, a motor without torque gives none, and the model is itself again; skipped where that is not installed."""
+    robotics = pytest.importorskip("gymnasium_robotics")
+    gymnasium.register_envs(robotics)
+    env = gymnasium.make("AdroitHandDoor-v1")
+    joints = ["ARTz", "WRJ1", "FFJ2"]
+    events = [FaultEvent("locked", "WRJ1", 0.1), FaultEvent("limp", "FFJ2", 0.1)]
+    wrapped = FaultWrapper(env, events, joints=joints)
+    model, data = env.unwrapped.model, env.unwrapped.data
+    before = [model.jnt_range.tobytes(), model.jnt_actfrcrange.tobytes()]
+    wrapped.reset(seed=1)
+    wrist, finger = (model.joint(name) for name in joints[1:])
+    places, rng = [], np.random.default_rng(0)
+    for _ in range(60):
+        wrapped.step(rng.uniform(-1, 1, env.action_space.shape).astype(np.float32))
+        if wrapped.fault["active"]:
+            places.append(data.qpos[wrist.qposadr[0]])
+            assert data.qfrc_actuator[finger.dofadr[0]] == 0.0
+    assert len(places) >= 45
+    assert np.ptp(places) < 13e-3  # a lock by limits is soft against motors as strong as these
+    wrapped.reset(seed=1)
+    assert [model.jnt_range.tobytes(), model.jnt_actfrcrange.tobytes()] == before
+    env.close()

@@ -81,7 +81,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         if num_envs < 1 or not 0 < period <= horizon < np.inf:
             raise InputError(
                 f"there are {num_envs} arms, steps of {period:g} s and a horizon of {horizon:g} s; give an arm or more, and a "
-                "period above 0 that is no longer than the horizon"
+                "period above 0 and at most the horizon"
             )
         self.law, self.num_envs, self.faults = law, int(num_envs), Faults([]) if faults is None else faults
         self.period, self.horizon, self.tolerance, self._reveal = float(period), float(horizon), tolerance, reveal
