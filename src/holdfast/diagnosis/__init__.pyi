@@ -5,5 +5,10 @@ from holdfast.diagnosis.bounds import load as load
 from holdfast.diagnosis.kinds import Verdict as Verdict
 from holdfast.diagnosis.monitor import Monitor as Monitor
 from holdfast.diagnosis.monitor import diagnose as diagnose
+from holdfast.diagnosis.probe import Finding as Finding
+from holdfast.diagnosis.probe import Probe as Probe
+from holdfast.diagnosis.probe import decide as decide
+from holdfast.diagnosis.probe import plan_probe as plan_probe
 from holdfast.diagnosis.rehearsal import rehearse as rehearse
 from holdfast.diagnosis.sensors import Sensors as Sensors
+from holdfast.diagnosis.separation import self_motion_rates as self_motion_rates
