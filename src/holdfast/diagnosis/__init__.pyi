@@ -2,9 +2,13 @@ from holdfast.diagnosis.answer import Diagnosis as Diagnosis
 from holdfast.diagnosis.bounds import Bounds as Bounds
 from holdfast.diagnosis.bounds import calibrate as calibrate
 from holdfast.diagnosis.bounds import load as load
+from holdfast.diagnosis.delay import expected_delays as expected_delays
 from holdfast.diagnosis.kinds import Verdict as Verdict
 from holdfast.diagnosis.monitor import Monitor as Monitor
 from holdfast.diagnosis.monitor import diagnose as diagnose
+from holdfast.diagnosis.motions import read_motion as read_motion
+from holdfast.diagnosis.observability import Observability as Observability
+from holdfast.diagnosis.observability import observe as observe
 from holdfast.diagnosis.probe import Finding as Finding
 from holdfast.diagnosis.probe import Probe as Probe
 from holdfast.diagnosis.probe import decide as decide

@@ -15,6 +15,7 @@ from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
+from holdfast.diagnosis.motions import resampled
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.separation import (
     LIKELY,
@@ -24,12 +25,15 @@ from holdfast.diagnosis.separation import (
     self_motion_rates,
     separations,
     task_rows,
+    together,
+    unseen,
     weights,
 )
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 from holdfast.files.output import write_table
 from holdfast.notice import says
+from holdfast.paths.joint_table import joint_columns
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
@@ -70,21 +74,20 @@ class Probe(Result):
     @cached_property
     def untestable(self) -> tuple[str, ...]:
         """Suspects whose lock the tool's pose does not show on this motion."""
-        return tuple(self.arm.joint_names[i] for i in self.suspects if not self.separation[0, i + 1] > LIKELY)
+        return tuple(self.arm.joint_names[i] for i in unseen(self.separation, self.suspects))
 
     @cached_property
     def together(self) -> tuple[tuple[str, str], ...]:
         """Pairs of testable suspects that it does not tell apart."""
-        names, seen = self.arm.joint_names, [i for i in self.suspects if self.separation[0, i + 1] > LIKELY]
-        pairs = [(i, j) for k, i in enumerate(seen) for j in seen[k + 1 :] if not self.separation[i + 1, j + 1] > LIKELY]
-        return tuple((names[i], names[j]) for i, j in pairs)
+        names = self.arm.joint_names
+        return tuple((names[i], names[j]) for i, j in together(self.separation, self.suspects))
 
     @property
     def told_apart(self) -> tuple[str, ...]:
         """Suspects that are told from health and from every other suspect."""
-        ids = [0, *(i + 1 for i in self.suspects)]
-        alone = [i for i in self.suspects if all(self.separation[i + 1, j] > LIKELY for j in ids if j != i + 1)]
-        return tuple(self.arm.joint_names[i] for i in alone)
+        pairs = {name for pair in self.together for name in pair}
+        names = [self.arm.joint_names[i] for i in self.suspects]
+        return tuple(name for name in names if name not in self.untestable and name not in pairs)
 
     def describe(self) -> list[str]:
         """What the motion can tell and what not, before anything moves."""
@@ -101,18 +104,16 @@ class Probe(Result):
         return [*lines, f"the tool stays within {1e3 * self.tool:.2g} mm of where it is while nothing is locked"]
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the references as columns ``t, q_ref_1, ...``.
+        """Write the references: ``time_s`` and a column for each joint, as other motions are written.
 
         Raises:
             StoreError: It cannot be written.
         """
-        header = ["t", *(f"q_ref_{k + 1}" for k in range(self.arm.n))]
-        return write_table(file, "probe", header, np.column_stack([self.t, self.q]))
+        return write_table(file, "probe", ["time_s", *joint_columns(self.arm)], np.column_stack([self.t, self.q]))
 
     def at(self, rate: float) -> Array:
         """References (K, n) at so many samples a second, in straight lines between those of the plan."""
-        t = np.arange(int(np.floor(self.t[-1] * rate)) + 1) / rate
-        return np.stack([np.interp(t, self.t, column) for column in self.q.T], axis=1)
+        return resampled(self.q, RATE, rate)
 
     def decide(self, log: Log) -> Finding:
         """What a record of this motion shows; see :func:`holdfast.diagnosis.decide`."""

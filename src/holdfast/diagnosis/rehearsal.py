@@ -74,7 +74,7 @@ def rehearse(
     if (duration is None) == (motion is None):
         raise InputError("give the duration or the motion of the record, one of them")
     mujoco, rng, n = import_mujoco(), np.random.default_rng(seed), arm.n
-    reference = _swinging(arm, duration, speed, rng) if duration is not None else arm.check_configurations(motion)
+    reference = _swinging(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
     count = len(reference)
     t = np.arange(count, dtype=np.float64) * _STEP
     spec = mujoco_spec(arm, np.zeros(n), range(n), step=_STEP)
@@ -115,10 +115,10 @@ def rehearse(
     return Log(t=t, q_ref=reference, q=told, tau=tau + rng.normal(0, _NOISE["tau"], tau.shape), x=x, quat=quat)
 
 
-def _swinging(arm: Arm, duration: float, speed: float, rng: np.random.Generator) -> Array:
+def _swinging(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> Array:
     """Sines about the middle of each range, from rest: their phase runs up within half a second."""
-    if not 0 < duration < np.inf:
-        raise InputError(f"duration is {duration:g}; it must be a finite number of seconds above 0")
+    if duration is None or not 0 < duration < np.inf:
+        raise InputError(f"duration is {duration}; it must be a finite number of seconds above 0")
     low, high = (np.where(np.isfinite(x), x, s * np.pi) for x, s in ((arm.lower, -1.0), (arm.upper, 1.0)))
     half = np.minimum(_HALF, (high - low) / 4)
     pace = speed / half * rng.uniform(0.5, 1.0, arm.n)

@@ -89,3 +89,14 @@ def separations(arm: Arm, q: Array, sensors: Sensors) -> Array:
         apart = ((differences(poses[i + 1 :], poses[i]) * weight) ** 2).sum(axis=(1, 2)) / 2
         out[i, i + 1 :] = out[i + 1 :, i] = apart
     return out
+
+
+def unseen(separation: Array, joints: Sequence[int]) -> list[int]:
+    """Which of the joints' locks cannot be told from none."""
+    return [i for i in joints if not separation[0, i + 1] > LIKELY]
+
+
+def together(separation: Array, joints: Sequence[int]) -> list[tuple[int, int]]:
+    """Pairs of the joints whose locks can be told from none, and not from each other."""
+    seen = [i for i in joints if separation[0, i + 1] > LIKELY]
+    return [(i, j) for k, i in enumerate(seen) for j in seen[k + 1 :] if not separation[i + 1, j + 1] > LIKELY]
