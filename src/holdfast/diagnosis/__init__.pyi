@@ -3,6 +3,8 @@ from holdfast.diagnosis.bounds import Bounds as Bounds
 from holdfast.diagnosis.bounds import calibrate as calibrate
 from holdfast.diagnosis.bounds import load as load
 from holdfast.diagnosis.delay import expected_delays as expected_delays
+from holdfast.diagnosis.export import ExportedMonitor as ExportedMonitor
+from holdfast.diagnosis.export import export_c as export_c
 from holdfast.diagnosis.kinds import Verdict as Verdict
 from holdfast.diagnosis.monitor import Monitor as Monitor
 from holdfast.diagnosis.monitor import diagnose as diagnose
