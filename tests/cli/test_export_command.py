@@ -28,7 +28,7 @@ def test_it_is_the_library(ask, tmp_path):
 
 def test_a_monitor_stands_beside_the_law(ask, tmp_path):
     arm, t = hf.arms.load("planar-3r"), np.arange(500) / 1000
-    q = np.sin(np.outer(t, [1.0, 0.5, 0.7]))
+    q = 0.3 * np.sin(np.outer(t, [1.0, 0.5, 0.7]))
     bounds = hf.diagnosis.calibrate(arm, [hf.faults.Log(t=t, q_ref=q, q=q + 1e-3 * t[:, None])])
     known = bounds.to_json(tmp_path / "bounds.json")
     data = ask("export", "planar-3r", "--law", "pseudoinverse", "--monitor", known, "--out", tmp_path)

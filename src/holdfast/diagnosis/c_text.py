@@ -47,6 +47,9 @@ extern const char *const NAME_joints[COUNT];
 /* Before the first cycle, and to forget everything. */
 void NAME_init(NAME_state *state);
 
+/* Forget the alarm and what led to it, while the arm goes on. */
+void NAME_rearm(NAME_state *state);
+
 /* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
    q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
    torque: commanded torques, N m and N, or NULL. pose: the tool's measured pose, taken now, (4, 4) row by row, or NULL. */
@@ -297,11 +300,21 @@ static void decide(NAME_state *s) {
     }
 }
 
+void NAME_rearm(NAME_state *s) {
+    int k;
+    for (k = 0; k < N; ++k) s->over_z[k] = s->over_y[k] = s->size[k] = s->residual[k] = s->left[k] = 0;
+    s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
+    s->rr = s->rt = s->rs = s->tt = s->ss = s->verdict.time = 0;
+    s->count = s->poses = s->some = 0;
+    s->alarmed = s->torques = s->tool = s->suspect = s->push = s->verdict.alarm = 0;
+    s->joint = s->told = -1;
+    answer(s, -1, GUARD_UNKNOWN, -1);
+}
+
 void NAME_init(NAME_state *s) {
     static const NAME_state zero;
     *s = zero;
-    s->joint = s->told = s->verdict.joint = -1;
-    s->verdict.loss = -1;
+    NAME_rearm(s);
 }
 
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
