@@ -125,6 +125,20 @@ def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):
         hf.diagnosis.calibrate(panda, [dataclasses.replace(log, q_ref=log.q_ref + 1.0 * log.t[:, None])])
 
 
+def test_a_motion_is_looked_at_beforehand(panda, bounds, records):
+    """What is predicted is what happens: the delay within a factor 2, on a robot whose masses are off."""
+    log, i = records["locked"], 3
+    seen = hf.diagnosis.observe(panda, log.q_ref, bounds=bounds)
+    assert seen.unseen == ()
+    assert set(seen.alike) == {"panda_joint1", "panda_joint5", "panda_joint7"}
+    assert np.isfinite(seen.delays[:, i]).all()
+    inertia = panda.inertia_diagonal(log.q_ref[::100]).max(axis=0) + 0.1  # the rotors of rehearse
+    gains = {"stiffness": (20 * np.pi) ** 2 * inertia, "damping": 40 * np.pi * inertia}
+    predicted = hf.diagnosis.expected_delays(bounds, log.q_ref, **gains, onset=0.9)[i]
+    measured = hf.diagnosis.diagnose(panda, log, bounds).verdict.time - 0.9
+    assert predicted / 2 < measured < 2 * predicted
+
+
 def test_false_alarms_are_counted_and_bounded(bounds, healthy):
     hours = sum(log.duration for log in healthy) / 3600
     rate, limit = bounds.false_alarms()

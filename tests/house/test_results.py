@@ -39,7 +39,7 @@ RESULTS = named(
         "control": "ExportedLaw TradeOff",
         "designs": "Book Orders Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",
-        "diagnosis": "Bounds Diagnosis",
+        "diagnosis": "Bounds Diagnosis ExportedMonitor Finding Observability Probe",
         "faults": "FaultBatch",
         "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "WaypointCheck WhatIsLeft",

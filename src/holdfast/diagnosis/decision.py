@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.kinds import Kinds, Verdict
+from holdfast.diagnosis.kinds import SCALE, Kinds, Verdict
 from holdfast.diagnosis.observer import SLIP
 from holdfast.diagnosis.sensors import Sensors
 
@@ -22,8 +22,7 @@ ISOLATE, CLASSIFY = 0.020, 0.100  # s after the alarm, s after that
 AGAIN, WATCHED = 0.5, 2.0  # s after the alarm: the tool's pose may still call it a sensor, and may name that
 SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
 WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
-_PUSHED = 8.0  # likewise a force at the tool explains the torques so much better than one joint
-_SCALE = 0.25  # of the bound: a deviation of the residual torque
+PUSHED = 8.0  # likewise a force at the tool explains the torques so much better than one joint
 
 
 class Decision:
@@ -103,7 +102,7 @@ class Decision:
 
     def _isolate(self, q: Array) -> None:
         """The joint with the largest residuals, unless a force at the tool explains the residual torques better than it."""
-        mean, bound = self._residual / self._split, _SCALE * self._bounds.torque
+        mean, bound = self._residual / self._split, SCALE * self._bounds.torque
         if self._torques:
             self._push = _is_a_push(mean / bound, (self._arm.jacobian(q)[:3] / bound).T)
         i, bounds = int(self._size.argmax()), self._bounds
@@ -157,4 +156,4 @@ def _is_a_push(mean: Array, columns: Array) -> bool:
     """Whether a force explains mean residual torques (n,) better than any joint alone, by its columns (n, 3)."""
     force = np.linalg.lstsq(columns, mean, rcond=None)[0]
     by_force = ((mean - columns @ force) ** 2).sum()
-    return bool(by_force + _PUSHED < (mean**2).sum() - (mean**2).max())
+    return bool(by_force + PUSHED < (mean**2).sum() - (mean**2).max())

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-_STILL, _PART, _NOISY = 2e-3, 0.15, 12.0  # rad or m; of the reference's travel; deviations of the sensor
-_ALL, _CARRIED = 0.93, (0.8, 1.2)  # losses: of the whole motor; that friction may hide
-_TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
-_AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none
-_SCALE = 0.25  # of its torque bound: a deviation of the residual
-_GROWN = 10.0  # of dry friction: it is not believed to grow by more
+STILL, PART, NOISY = 2e-3, 0.15, 12.0  # rad or m; of the reference's travel; deviations of the sensor
+ALL, CARRIED = 0.93, (0.8, 1.2)  # losses: of the whole motor; that friction may hide
+TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
+AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none
+SCALE = 0.25  # of its torque bound: a deviation of the residual
+GROWN = 10.0  # of dry friction: it is not believed to grow by more
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ class Kinds:
             unless_seen: What remains possible where the tool's pose is not measured.
         """
         travel, wanted = (max(high - low, 0.0) for low, high in (self._q, self._reference))
-        still = travel < _STILL and travel < _PART * wanted + _NOISY * self._noise
+        still = travel < STILL and travel < PART * wanted + NOISY * self._noise
         evidence = [f"it moved by {travel:.3g} {unit}, its reference by {wanted:.3g} {unit}"]
 
         def verdict(kind: str, candidates: tuple[str, ...], loss: float = np.nan) -> dict[str, Any]:
@@ -98,19 +98,19 @@ class Kinds:
         drag = max(0.0, -self._rs / max(self._ss, 1e-12))
         by_loss = self._rr + 2 * loss * self._rt + loss**2 * self._tt
         by_drag = self._rr + 2 * drag * self._rs + drag**2 * self._ss
-        if still and self._asked >= _TIMES * self._coulomb:
-            if _CARRIED[0] < loss < _CARRIED[1] and self._least < _TIMES * self._coulomb:
+        if still and self._asked >= TIMES * self._coulomb:
+            if CARRIED[0] < loss < CARRIED[1] and self._least < TIMES * self._coulomb:
                 evidence.append("friction may hold it: gravity on it is small")
                 return verdict("standstill", ("locked", "limp", *unless_seen), loss)
             return verdict("locked", ("locked", *unless_seen))
         if not min(by_loss, by_drag) < 0.5 * self._rr:
             return verdict("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *unless_seen))
-        worse = (by_drag - by_loss) / (self._count * (_SCALE * self._bounds[0]) ** 2)
-        if abs(worse) < 1 and (drag <= _GROWN * self._coulomb or self._coulomb == 0):
+        worse = (by_drag - by_loss) / (self._count * (SCALE * self._bounds[0]) ** 2)
+        if abs(worse) < 1 and (drag <= GROWN * self._coulomb or self._coulomb == 0):
             evidence.append("a weak motor and more friction explain its torque alike")
             return verdict("sluggish", ("weak", "friction"), loss)
         if worse < 0:
             return verdict("friction", ("friction",))
-        if loss > _ALL or (loss > _CARRIED[0] and self._behind > _AWAY * self._bounds[1]):
-            return verdict("limp", ("limp",) if loss > _ALL else ("limp", "weak"), loss)
+        if loss > ALL or (loss > CARRIED[0] and self._behind > AWAY * self._bounds[1]):
+            return verdict("limp", ("limp",) if loss > ALL else ("limp", "weak"), loss)
         return verdict("weak", ("weak",), loss)

@@ -107,8 +107,12 @@ class Monitor:
         self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
         self._q: Array | None = None
         self._reference: Array | None = None
-        self._over_z, self._over_y, self._over_w = np.zeros(self.arm.n), np.zeros(self.arm.n), 0.0
         self._last = np.zeros((SMOOTHED, 6))
+        self.rearm()
+
+    def rearm(self) -> None:
+        """Forget the alarm and what led to it, while the arm goes on: time runs on, and what follows the motion is kept."""
+        self._over_z, self._over_y, self._over_w = np.zeros(self.arm.n), np.zeros(self.arm.n), 0.0
         self._alarm: Decision | None = None
         self.verdict = Verdict(False)
 
