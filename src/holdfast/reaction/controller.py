@@ -5,6 +5,7 @@ Source: derived here; braking turns a free-swinging joint into a locked one, Eng
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -55,6 +56,7 @@ class Controller:
         made_for: The law that it is of.
         tracking: (n,) bounds of the distance from the references, rad and m; None without a monitor.
         brakes: Of the joints.
+        rearm: Lets the monitor watch on after a push.
         react: Who notices.
         plan: Whether a route is planned where the masked law ends off the target.
 
@@ -65,10 +67,18 @@ class Controller:
     """
 
     def __init__(
-        self, law: MaskedLaw, made_for: Law, *, tracking: Array | None, brakes: Brakes, react: React, plan: bool
+        self,
+        law: MaskedLaw,
+        made_for: Law,
+        *,
+        tracking: Array | None,
+        brakes: Brakes,
+        rearm: Callable[[], None],
+        react: React,
+        plan: bool,
     ) -> None:
         self.law, self.arm, self._made_for = law, made_for.arm, made_for
-        self._tracking, self._brakes, self._react, self._plans = tracking, brakes, react, plan
+        self._tracking, self._brakes, self._rearm, self._react, self._plans = tracking, brakes, rearm, react, plan
         self.pace, self.over, self.actions = 1.0, False, list[Action]()
         self._pace = self._time = self._since = 0.0
         self._nearest = np.inf
@@ -157,8 +167,9 @@ class Controller:
         if self._decided or self.over:
             return
         if time > self._quiet:
-            self._act(time, "resume", "nothing more was seen")
-            self.pace, self._decided = 1.0, True
+            self._act(time, "resume", "no joint was named")
+            self.pace, self._alarm, self._quiet = 1.0, np.inf, np.inf
+            self._rearm()
             return
         if not verdict.alarm:
             return

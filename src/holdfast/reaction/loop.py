@@ -116,7 +116,8 @@ def simulate_faults(
     masked = MaskedLaw(law, target, centring=centring)
     robot = _Robot(law, start, made, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose)
     tracking = None if monitor is None else monitor.bounds.tracking
-    controller = Controller(masked, law, tracking=tracking, brakes=robot.injector, react=how, plan=plan)
+    rearm = (lambda: None) if monitor is None else monitor.rearm
+    controller = Controller(masked, law, tracking=tracking, brakes=robot.injector, rearm=rearm, react=how, plan=plan)
     outcome = _drive(robot, controller, masked, monitor if how in ("stop", "chain") else None, how, time_limit)
     places = np.full(law.arm.n, np.nan)
     for event, place in robot.began.items():
