@@ -13,12 +13,10 @@ panda = hf.arms.load("panda")
 law = hf.control.damped(panda, 0.02, task="position", gain=2.0, speed_limit=0.25)
 start, goal, body = [-0.9, 0.1, 0, -2.0, 0, 2.1, 0.785], [0.42, 0.42, 0.45], hf.Body(3)
 targets = [goal, [0.47, 0.22, 0.55], [0.42, -0.08, 0.45], [0.52, -0.38, 0.55]]
-logs = [
-    hf.simulate_faults(law, start, target, body=body, seed=k).log()
-    for k, target in enumerate(targets)
-]
+runs = [hf.simulate_faults(law, start, target, body=body) for target in targets]
 friction = {"coulomb": [body.coulomb] * 7, "viscous": [body.viscous] * 7}
-monitor = hf.diagnosis.Monitor(panda, hf.diagnosis.calibrate(panda, logs, **friction))
+bounds = hf.diagnosis.calibrate(panda, [run.log() for run in runs], **friction)
+monitor = hf.diagnosis.Monitor(panda, bounds)
 
 # %%
 # The same fault, first without a monitor, then with it:
