@@ -95,13 +95,6 @@ def feasible_with(arm: hf.Arm, trial: Trial, known: hf.FaultRun) -> str:
     """Whether the goal was within reach of what was left: ``yes``, ``not found`` or ``unknown``."""
     (event,) = known.events
     place = float(known.places[arm.joint_index(event.joint)])
-    if event.kind == "reduced_range":
-        travel = float(event.parameters["travel"])
-        k = arm.joint_index(event.joint)
-        ends = (place + travel, arm.upper[k]) if travel < 0 else (arm.lower[k], place + travel)
-        low, high = max(min(ends), arm.lower[k]), min(max(ends), arm.upper[k])
-        left = hf.Degraded(arm, ranges={event.joint: (low, high)}).limited
-        return "yes" if hf.solve_ik(left, known.target, task=trial.law.task, restarts=100).success else "not found"
     return feasible(arm, trial.target, {event: place}, task=trial.law.task).answer
 
 

@@ -103,6 +103,26 @@ def test_a_weak_motor_must_carry_the_arm():
     assert feasible(panda, goal, {FaultEvent("limp", "panda_joint4", 0.0): -1.8}).answer == "yes"  # its brake holds it
 
 
+def test_a_reduced_range_is_feasible_where_the_elbow_angle_of_the_goal_is_within_it():
+    """Two links of 1 m reach a distance d with an elbow of acos(d^2 / 2 - 1), to either side."""
+    arm = hf.arms.load("planar-2r").with_limits([-3.1, -3.1], [3.1, 3.1])
+    event = FaultEvent("reduced_range", arm.joint_names[1], 0.0, parameters={"lower": 0.3, "upper": 1.0})
+    for elbow, answer in ((0.7, "yes"), (1.5, "not found"), (0.1, "not found")):
+        goal = arm.forward_kinematics([0.4, elbow])[:3, 3]
+        found = feasible(arm, goal, {event: 0.6}, task="planar")
+        assert found.answer == answer, found
+        if answer == "yes":
+            assert found.q[1] == pytest.approx(elbow, abs=1e-5)
+    lock = FaultEvent("locked", arm.joint_names[1], 0.0)
+    goal = arm.forward_kinematics([0.4, 0.7])[:3, 3]
+    found = [feasible(arm, goal, {lock: place}, task="planar", at=[0.0, place]) for place in (0.7, 1.2)]
+    assert [one.answer for one in found] == ["yes", "no"]
+    assert "proved" in found[1].why
+    both = {lock: 0.7, FaultEvent("reduced_range", arm.joint_names[0], 0.0, parameters={"lower": 0.0, "upper": 1.0}): 0.2}
+    assert feasible(arm, goal, both, task="planar").answer == "unknown"
+    assert feasible(arm, goal, both, task="planar", at=[0.2, 0.7]).answer == "yes"
+
+
 def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
     faults = hf.faults.Faults([hf.faults.sensor_bias(["joint1"], bias=0.25, onset=0.05)], seed=2)
     wrapped = FaultWrapper(reacher, faults, joints=["joint0", "joint1"], record=tmp_path / "runs", observes={"joint1": ()})

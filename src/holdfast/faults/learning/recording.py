@@ -33,7 +33,7 @@ class Episode:
         episode: Of the fault model.
         events: Its faults.
         id: Their digest.
-        feasible: Whether the goal was within reach: ``yes``, ``not found`` or ``unknown``.
+        feasible: Whether the goal was within reach, as :class:`holdfast.faults.Feasibility` has it.
         outcome: ``terminated``, ``truncated`` or ``left``: reset or closed before its end.
         versions: Of packages.
     """
