@@ -64,7 +64,7 @@ def table(count: int) -> list[str]:
         "## Self-motions that find the locked joint",
         "",
         "From the tool's measured pose alone, 100 Hz, 0.5 mm, 1 mrad; the lock is there before the motion begins. Testable: "
-        "told from every other by the plan, before anything moves. The tool's distance is as measured, with its noise, at the end.",
+        "told from every other by the plan, before anything moves. The tool's distance is as measured at the end.",
         "",
         *HEAD,
         *rows,
