@@ -34,7 +34,7 @@ RESULTS = named(
         "FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
         "Workspace",
         "bench": "FailActive",
-        "ceilings": "Ceiling CeilingSearch CeilingTable",
+        "ceilings": "Ceiling CeilingSearch CeilingTable SingularValueCeiling",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
         "designs": "Book Orders Record RecordCheck Synthesis",

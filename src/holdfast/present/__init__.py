@@ -53,6 +53,7 @@ PRESENTERS = {
     "Region": ("regions.region", "regions.region"),
     "Runs": ("simulation.console", "simulation.run"),
     "SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
+    "SingularValueCeiling": ("ceilings.console", ""),
     "StationaryPoints": ("equilibria.points", ""),
     "StructuralZero": ("certificates.console", ""),
     "Study": ("studies.console", "studies.page"),
