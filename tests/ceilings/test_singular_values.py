@@ -59,7 +59,7 @@ def test_an_optimiser_does_not_beat_them(n, m, k, rng):
         return -float(least(j, k)) / np.sqrt((x**2).sum() / n)
 
     bound = hf.ceilings.singular_value(n=n, m=m, k=k).bound
-    best = max(-minimize(loss, rng.normal(size=m * n), method="Powell", options={"maxiter": 12}).fun for _ in range(2))
+    best = max(-minimize(loss, rng.normal(size=m * n), method="Powell", options={"maxiter": 6}).fun for _ in range(2))
     assert 0.8 * bound < best <= bound * (1 + 1e-12)
 
 
@@ -75,7 +75,7 @@ def test_frames_attain_them():
     assert least(rows, 2) == pytest.approx(hf.ceilings.singular_value(n=6, m=3, k=2).bound, abs=1e-6)
 
 
-@pytest.mark.parametrize(("name", "task"), [("panda", "position"), ("pa10-9dof", "pose"), ("ur5-rail", "pose")])
+@pytest.mark.parametrize(("name", "task"), [("panda", "position"), ("pa10-9dof", "pose")])
 def test_the_levers_of_an_arm_bound_its_columns(name, task, rng):
     arm = hf.arms.load(name)
     index = hf.indices.minimum_singular_value(arm, task, length=0.5)

@@ -37,7 +37,7 @@ RESULTS = named(
         "ceilings": "Ceiling CeilingSearch CeilingTable SingularValueCeiling",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
-        "designs": "Book Orders Record RecordCheck Synthesis",
+        "designs": "Book EvolvedDesign Orders Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",
         "diagnosis": "Bounds Diagnosis",
         "faults": "FaultBatch",

@@ -30,6 +30,7 @@ PRESENTERS = {
     "Designs": ("designs.console", "designs.page"),
     "Diagnosis": ("diagnosis.console", "diagnosis.page"),
     "FailActive": ("bench.console", "bench.page"),
+    "EvolvedDesign": ("designs.evolved", "designs.evolved"),
     "Endurance": ("endurance.console", "endurance.page"),
     "Execution": ("physics.execution", "physics.execution"),
     "FaultBatch": ("faults.console", ""),

@@ -79,8 +79,6 @@ def next_steps(found: Found, name: str) -> list[str]:
     if isinstance(found, CeilingSearch):
         return [f"{name}.null_space  # attains {found.value:.6g}"]
     if isinstance(found, SingularValueCeiling):
-        return [
-            f"hf.ceilings.look_up(n={found.n}, m={found.m}, k={found.k})  # of relative manipulability, which knows no lengths"
-        ]
+        return [f"{name}.bound  # no Jacobian has more" if found.jacobian is None else f"{name}.jacobian  # attains it"]
     search = f"hf.ceilings.search(n={found.n}, m={found.m}, k={found.k}, seconds=60)  # is there a better one?"
     return [f"{name}.verify()  # measures the null space anew", *([] if found.attained else [search])]
