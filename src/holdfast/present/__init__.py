@@ -14,7 +14,7 @@ PRESENTERS = {
     "Arm": ("arm.console", "arm.view"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
-    "Book": ("designs.records", ""),
+    "Book": ("designs.records", "designs.book"),
     "Ceiling": ("ceilings.console", ""),
     "CeilingSearch": ("ceilings.console", ""),
     "CeilingTable": ("ceilings.console", ""),
