@@ -22,7 +22,7 @@ from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-FACTOR = 1.5  # on the largest healthy residual
+FACTOR, ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors alone
 OFF_RATE = 0.01  # of the rate: so much may a record differ from its bounds
 _HOUR = 3600.0
 _FORMAT = 1
@@ -148,7 +148,7 @@ def calibrate(
     arm: Arm,
     logs: Sequence[Log],
     *,
-    factor: float = FACTOR,
+    factor: float | None = None,
     coulomb: ArrayLike | None = None,
     viscous: ArrayLike | None = None,
 ) -> Bounds:
@@ -160,7 +160,8 @@ def calibrate(
     Args:
         arm: The arm, with inertial data if torques were recorded.
         logs: Records of healthy motion, of the kind that is to be watched.
-        factor: Above or equal to 1.
+        factor: Above or equal to 1. None: 1.5; 2.5 where torques were not recorded: then the bounds are those of slow motion
+            (every reference below 0.6 rad/s and m/s for 0.1 s), in which alone tracking is watched.
         coulomb: (n,) dry friction of the joints, N m and N, if it is known.
         viscous: (n,) viscous friction, N m s/rad and N s/m; the arm's own if not given.
 
@@ -174,6 +175,8 @@ def calibrate(
     """
     if not logs:
         raise InputError("there is no record to calibrate with; give records of healthy motion")
+    if factor is None:
+        factor = FACTOR if any(log.tau is not None for log in logs) else ALONE
     if not factor >= 1:
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
     dry = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
@@ -184,6 +187,8 @@ def calibrate(
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
         found.append(signals_of(arm, log, coulomb=dry, viscous=wet))
     largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
+    if all(np.isnan(s.tracking).all() for s in found):
+        raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")
     same = np.flatnonzero(largest[1].max(axis=0) == 0)
     if same.size:
         raise InputError(

@@ -97,8 +97,12 @@ class Log:
         except InputError as error:
             raise InputError(f"log '{path}': {error}") from error
 
-    def save(self, file: str | Path) -> Path:
+    def save(self, file: str | Path, **more: Array) -> Path:
         """Write ``.npz`` (single precision but for the time) or, by its name, CSV.
+
+        Args:
+            file: Path.
+            more: Other arrays of an ``.npz`` file, which :meth:`load` passes over.
 
         Raises:
             StoreError: It cannot be written.
@@ -109,9 +113,8 @@ class Log:
             header = ["t", *(f"{name}_{k + 1}" for name, a in given.items() if a.ndim == 2 for k in range(a.shape[1]))]
             return write_table(path, "log", header, np.column_stack(list(given.values())))
         with guarded(path, "log", "choose another path"), path.open("wb") as stream:
-            np.savez_compressed(
-                stream, **{name: value if name == "t" else value.astype(np.float32) for name, value in given.items()}
-            )
+            arrays = {**given, **more}
+            np.savez_compressed(stream, **{x: a if x == "t" else a.astype(np.float32) for x, a in arrays.items()})
         return path
 
 

@@ -17,7 +17,12 @@ def command(
     logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Records (.npz or .csv).", show_default=False)],
     arm: ArmOption,
     out: Annotated[Path, typer.Option("--out", help="File of the bounds (JSON).", show_default=False)],
-    factor: Annotated[float, typer.Option("--factor", help="On the largest healthy residual.")] = 1.5,
+    factor: Annotated[
+        float | None,
+        typer.Option(
+            "--factor", help="On the largest healthy residual. Default: 1.5, without torques 2.5.", show_default=False
+        ),
+    ] = None,
     coulomb: Annotated[float, typer.Option("--coulomb", help="Dry friction of each joint, N m (N), if known.")] = 0.0,
     viscous: Annotated[
         float | None,
