@@ -34,10 +34,10 @@ RESULTS = named(
         "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory Workspace",
         "bench": "FailActive",
-        "ceilings": "Ceiling CeilingSearch CeilingTable",
+        "ceilings": "Ceiling CeilingSearch CeilingTable SingularValueCeiling",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
-        "designs": "Book Orders Record RecordCheck Synthesis",
+        "designs": "Book EvolvedDesign Orders Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",
         "diagnosis": "Bounds Diagnosis ExportedMonitor Finding Observability Probe",
         "faults": "FaultBatch",
