@@ -132,10 +132,12 @@ def test_bodies():
 def test_lock_times_of_drawn_faults_in_the_kinematic_loop(law):
     faults = hf.faults.Faults([hf.faults.locked(onset=(0.2, 2.0), probability=0.7)], seed=4)
     batch = faults.batch(law.arm, episodes=4)
-    runs = hf.simulate(law, np.tile(START, (4, 1)), GOAL, locked=batch.lock_times)
+    runs = hf.simulate(law, np.tile(START, (4, 1)), GOAL, faults=batch)
     for k, events in enumerate(batch.episodes):
-        locks = events.locks()
-        one = hf.simulate(law, START, GOAL, locked=list(locks), time=list(locks.values()) or 0.0)
+        one = hf.simulate(law, START, GOAL, locked=[e.joint for e in events], time=[e.onset for e in events] or 0.0)
         assert runs.q_final[k] == pytest.approx(one.q_final, abs=1e-9)
-    with pytest.raises(InputError, match="limp"):
-        hf.faults.Faults([hf.faults.limp(onset=1.0)]).draw(law.arm).locks()
+        assert hf.simulate(law, START, GOAL, faults=events).q_final.tolist() == one.q_final.tolist()
+    with pytest.raises(InputError, match="bodies and motors are needed"):
+        hf.simulate(law, START, GOAL, faults=hf.faults.Faults([hf.faults.limp(onset=1.0)]).draw(law.arm))
+    with pytest.raises(InputError, match="leave one of them out"):
+        hf.simulate(law, START, GOAL, locked=["panda_joint1"], faults=batch)
