@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -116,3 +119,15 @@ def test_a_bad_row_is_nan_alone(objectives, panda, rng):
     y.nansum().backward()
     assert y.isnan().tolist() == [False, True, False]
     assert x.grad.isnan().any(dim=1).tolist() == [False, True, False]
+
+
+def test_the_notebook_learns_to_fold(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    file = Path(__file__).parents[2] / "examples/learn_elbow_angles.ipynb"
+    install, *cells = ["".join(c["source"]) for c in json.loads(file.read_text())["cells"] if c["cell_type"] == "code"]
+    assert install == "%pip install --quiet 'holdfast[torch]'"
+    made: dict[str, object] = {}
+    for cell in cells:
+        exec(cell.replace("STEPS, BATCH = 1500", "STEPS, BATCH = 300"), made)
+    assert np.mean(made["typical"]) < np.mean(made["left"]) <= np.mean(made["best"])

@@ -87,6 +87,10 @@ MADE = {
     "Ceiling": found(hf.ceilings.look_up, n=8, m=6, k=2),
     "CeilingSearch": found(hf.ceilings.search, n=4, m=2, k=2, seconds=0.2),
     "CeilingTable": found(hf.ceilings.table, 6),
+    "SingularValueCeiling": found(hf.ceilings.singular_value, n=7, m=3),
+    "EvolvedDesign": found(
+        lambda: hf.designs.design_for_workspace(four(), {"a1": (0.5, 1.5), "a3": (0.5, 1.5)}, generations=2, restarts=1)
+    ),
     "FaultBatch": found(lambda: hf.faults.Faults([hf.faults.weak(gain=0.3, onset=1.0)]).batch(arm(), episodes=2)),
     "Orders": found(lambda: hf.designs.judge_orders(hf.arms.load("panda").jacobian(np.full(7, 0.4)), samples=20)),
     "Record": found(hf.designs.record, "pose-9R-k2-001"),
@@ -133,6 +137,8 @@ WITHOUT_FIGURE |= {
     "Ceiling",
     "CeilingSearch",
     "CeilingTable",
+    "EvolvedDesign",
+    "SingularValueCeiling",
     "FaultBatch",
     "Orders",
     "Record",
@@ -151,6 +157,7 @@ ELSEWHERE = {
     "Observability",
     "Probe",
     "FailActive",
+    "FaultRun",
     "FreeSwing",
     "Merged",
     "Orbit",

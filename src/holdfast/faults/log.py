@@ -114,8 +114,12 @@ class Log:
         moved = np.concatenate([np.column_stack([self.x, self.quat])[rows:], late])
         return replace(self, x=moved[:, :3], quat=moved[:, 3:])
 
-    def save(self, file: str | Path) -> Path:
+    def save(self, file: str | Path, **more: Array) -> Path:
         """Write ``.npz`` (single precision but for the time) or, by its name, CSV.
+
+        Args:
+            file: Path.
+            more: Other arrays of an ``.npz`` file, which :meth:`load` passes over.
 
         Raises:
             StoreError: It cannot be written.
@@ -126,9 +130,8 @@ class Log:
             header = ["t", *(f"{name}_{k + 1}" for name, a in given.items() if a.ndim == 2 for k in range(a.shape[1]))]
             return write_table(path, "log", header, np.column_stack(list(given.values())))
         with guarded(path, "log", "choose another path"), path.open("wb") as stream:
-            np.savez_compressed(
-                stream, **{name: value if name == "t" else value.astype(np.float32) for name, value in given.items()}
-            )
+            arrays = {**given, **more}
+            np.savez_compressed(stream, **{x: a if x == "t" else a.astype(np.float32) for x, a in arrays.items()})
         return path
 
 
