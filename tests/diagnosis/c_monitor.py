@@ -69,6 +69,7 @@ def bounds_of(arm):
         angle=4e-3,
         coulomb=np.linspace(0.5, 0.3, n),
         viscous=np.full(n, 0.3),
+        scales=np.linspace(0.9, 1.1, n) if arm.links[0] else np.ones(n),
         factor=1.5,
         speed=np.ones(n),
         hours=1.0,

@@ -46,6 +46,13 @@ def test_the_example_watches_a_record(tmp_path):
         done = subprocess.run([str(tmp_path / "watch")], input=text, capture_output=True, text=True, check=False)
         assert done.returncode == code
         assert words in done.stdout
+    if shutil.which("nm"):  # nothing but arithmetic is called: no memory, no files, no clocks
+        subprocess.run([c_monitor.COMPILER, "-O2", "-c", "watch.c"], cwd=tmp_path, check=True, timeout=60)
+        said = subprocess.run(["nm", "-P", "watch.o"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+        names = {line.split()[0].lstrip("_"): line.split()[1] for line in said.splitlines()}
+        called = {name for name, kind in names.items() if kind == "U"}
+        assert called <= {"sin", "cos", "sincos", "sqrt", "tanh", "atan2", "memset", "memcpy", "stack_chk_fail"}
+        assert not [name for name, kind in names.items() if kind in "BbDdC" and name != "watch_joints" and "names" not in name]
     if shutil.which("g++"):
         command = ["g++", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-x", "c++", str(made.header)]
         subprocess.run([*command, "-Wno-pragma-once-outside-header"], check=True, timeout=60)

@@ -152,6 +152,23 @@ def test_false_alarms_are_counted_and_bounded(bounds, healthy):
     assert np.exp(-2 * some) * terms.sum() == pytest.approx(0.05)
 
 
+def test_masses_of_a_robot_are_found_from_its_records(panda):
+    """What rehearse drew, of the links that gravity shows; and tighter bounds, with which another motion does not alarm."""
+    logs = [hf.diagnosis.rehearse(panda, 5.0, seed=20 + k, body=3, pose=False) for k in range(3)]
+    given = {"coulomb": np.full(7, 0.5), "viscous": np.full(7, 0.3)}
+    fit = hf.diagnosis.calibrate(panda, logs[:2], **given, fit=True)
+    true = 1 + np.random.default_rng([1, 3]).uniform(-0.2, 0.2, 7)
+    assert fit.scales[[2, 3, 4]] == pytest.approx(true[[2, 3, 4]], abs=0.08)
+    plain = hf.diagnosis.calibrate(panda, logs[:2], **given)
+    assert (fit.torque[1:6] < plain.torque[1:6]).all()
+    assert fit.torque[1] < 0.75 * plain.torque[1]
+    assert not hf.diagnosis.diagnose(panda, logs[2], dataclasses.replace(fit, tracking=plain.tracking)).verdict.alarm
+    assert fit.coulomb == pytest.approx(0.5, abs=1e-3)
+    torque = fit.body(panda).gravity_torque(np.zeros(7))
+    links = [dataclasses.replace(x, mass=x.mass * s) for x, s in zip(panda.links, fit.scales, strict=True)]
+    assert torque == pytest.approx(dataclasses.replace(panda, links=tuple(links)).gravity_torque(np.zeros(7)))
+
+
 def test_bounds_and_records_come_back_from_files(panda, bounds, healthy, tmp_path):
     known = hf.diagnosis.load(bounds.to_json(tmp_path / "bounds.json"))
     assert all(np.array_equal(getattr(known, name), value) for name, value in vars(bounds).items())
@@ -163,6 +180,28 @@ def test_bounds_and_records_come_back_from_files(panda, bounds, healthy, tmp_pat
     (tmp_path / "bounds.json").write_text("{}", encoding="utf-8")
     with pytest.raises(InputError, match="it is no file of bounds"):
         hf.diagnosis.load(tmp_path / "bounds.json")
+
+
+def test_a_late_pose_from_parquet_is_in_time(panda, bounds, healthy, tmp_path):
+    """A record of a database, whose tool was measured 9 ms before it was written: without saying so it looks like a sensor."""
+    pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    log, late = healthy[0], 9
+    columns = {"t": log.t, "note": ["a"] * len(log.t)}
+    for name in ("q_ref", "q", "tau", "x", "quat"):
+        values = getattr(log, name)
+        if name in ("x", "quat"):
+            values = np.concatenate([np.full((late, values.shape[1]), np.nan), values[:-late]])
+        columns |= {f"{name}_{k + 1}": column for k, column in enumerate(values.T)}
+    parquet.write_table(pyarrow.table(columns), tmp_path / "log.parquet")
+    timely = Log.load(tmp_path / "log.parquet", latency=0.009)
+    assert np.array_equal(timely.q, log.q)
+    assert np.array_equal(timely.x[:-late], log.x[:-late], equal_nan=True)
+    assert not hf.diagnosis.diagnose(panda, timely, bounds).verdict.alarm
+    assert hf.diagnosis.diagnose(panda, Log.load(tmp_path / "log.parquet"), bounds).verdict.kind == "sensor"
+    with pytest.raises(InputError, match="latency is 3 s; it must be 0 or more"):
+        Log.load(tmp_path / "log.parquet", latency=3.0)
+    with pytest.raises(InputError, match="it is no Parquet file of numbers"):
+        Log.load((tmp_path / "log.csv").rename(tmp_path / "x.parquet") if log.save(tmp_path / "log.csv") else "")
 
 
 @pytest.mark.parametrize(

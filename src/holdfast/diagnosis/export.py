@@ -170,7 +170,7 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     told = [pose[:3, :3].T, pose[:3, 3], kinematics.jacobian(arm, q)]  # a matrix is written column by column
     functions = {"tool": ca.Function(f"{name}_tool_graph", [q], [ca.densify(ca.vec(x)) for x in told], {"cse": True})}
     if np.isfinite(bounds.torque).all():
-        terms = momentum_terms(arm, q, v)
+        terms = momentum_terms(bounds.body(arm), q, v)
         functions["momentum"] = ca.Function(f"{name}_momentum_graph", [q, v], [ca.densify(x) for x in terms], {"cse": True})
     generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
     for function in functions.values():

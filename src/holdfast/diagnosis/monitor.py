@@ -55,7 +55,7 @@ class Monitor:
         self.arm, self.bounds, self.sensors = arm, bounds, sensors or Sensors()
         self._dt = 1 / bounds.rate
         self._asked = (cycles(ISOLATE, self._dt), cycles(ISOLATE + CLASSIFY, self._dt))
-        self._momentum = momentum_kernel(arm).single() if np.isfinite(bounds.torque).all() else None
+        self._momentum = momentum_kernel(bounds.body(arm)).single() if np.isfinite(bounds.torque).all() else None
         self.reset()
 
     # ---- a record ----------------------------------------------------------------------------------------------------
@@ -68,7 +68,8 @@ class Monitor:
         """
         bounds = self.bounds
         bounds.require(self.arm, log.rate)
-        signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous)
+        body = bounds.body(self.arm)
+        signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous, body=body)
         scaled = signals.scaled(bounds.torque, bounds.tracking, bounds.position, bounds.angle)
         verdict = Verdict(False) if scaled.alarm is None else self._followed(log, signals, scaled, *scaled.alarm)
         return Diagnosis(arm=self.arm, log=log, bounds=bounds, signals=signals, scaled=scaled, verdict=verdict)

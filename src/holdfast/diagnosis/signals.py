@@ -97,7 +97,7 @@ class Signals:
         return total
 
 
-def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals:
+def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm | None = None) -> Signals:
     """The residuals of a record.
 
     Args:
@@ -105,6 +105,7 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals
         log: The record, evenly sampled; missing joint values are bridged, and are nobody's fault.
         coulomb: (n,) dry friction, N m and N.
         viscous: (n,) N m s/rad and N s/m.
+        body: The arm with the masses that it has, if they are known better.
 
     Raises:
         InputError: A record of another number of joints.
@@ -116,7 +117,7 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals
     q = bridged(log.q)
     levels, r, gravity = ["tracking"], np.zeros(q.shape), np.zeros(q.shape)
     if log.tau is not None:
-        r, v, gravity = residuals(momentum_kernel(arm), q, bridged(log.tau), dt=dt, coulomb=coulomb, viscous=viscous)
+        r, v, gravity = residuals(momentum_kernel(body or arm), q, bridged(log.tau), dt=dt, coulomb=coulomb, viscous=viscous)
         levels.append("torque")
     else:
         v = filtered_rates(q, dt)
