@@ -8,7 +8,6 @@ axes (a shoulder) the lemma is the whole proof. The tool itself is the last such
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -17,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import ROWS, OutOfReachClaim
+from holdfast.certificates.crew import Effort
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index, need_room
+from holdfast.certificates.joint_boxes.jobs import halved
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain, Reach
-from holdfast.certificates.tree import Tell
 
 Array = NDArray[np.float64]
 
@@ -82,8 +82,8 @@ def ranges(claim: OutOfReachClaim) -> Array:
     return kept
 
 
-def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell) -> Exclusion:
-    """Search for a witness, then for a proof, until a time (``monotonic``) or ``stop``; ``tell`` hears how far it is."""
+def exclude(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) -> Exclusion:
+    """Search for a witness, then for a proof."""
     rng = np.random.default_rng(seed)
     found = _witness(claim, rng)
     if found is not None:
@@ -93,7 +93,7 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop
         chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
     box, lemmas, tested = np.vstack([joints, claim.box]), list[Lemma](), 0
     for link, point in _points(chain, joints, rng)[:_MOST_LEMMAS]:
-        lemma, nodes = _lemma(chain, joints, claim.box, link, point, until, rng)
+        lemma, nodes = _lemma(chain, joints, claim.box, link, point, effort.end, rng)
         tested += nodes
         if lemma is not None:
             lemmas.append(lemma)
@@ -102,9 +102,8 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop
                 break
     test = _Apart(chain, lemmas, m)
     need_room(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
-    main = Halving(box, halvings)
-    finished = main.run(test, until, stop, tell)
-    tree = main.in_order()
+    main = halved(test, box, halvings, effort)
+    tree = main.tree
     used = [k for k in range(len(lemmas)) if LEMMA + k in tree]
     renamed = {LEMMA + k: LEMMA + new for new, k in enumerate(used)}
     kept = [lemmas[k] for k in used]
@@ -113,8 +112,8 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop
         tree.translate(bytes(renamed.get(token, token) for token in range(256))),
         main.undecided,
         main.leaves + sum(lemma.tree.count(0) for lemma in kept),
-        main.tested + tested,
-        finished,
+        main.nodes + tested,
+        main.finished,
     )
 
 

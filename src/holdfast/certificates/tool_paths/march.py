@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import pairwise
 from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tool_paths.forms import SEGMENT, Cells, Following, Forms
+from holdfast.certificates.tool_paths.forms import SEGMENT, UNIT, Cells, Following, Forms
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _AT_ONCE = 64  # slabs that march side by side
+_TURNED, _NARROWER, _WIDEST, _REACH = 24, 16, 0.5, 0.8  # cells in a row; half widths; the middle of one, in half widths ahead
+_PLAIN = 2  # halvings of a slab before its cells are turned
 _SHORTEST = SEGMENT >> 7  # of cells, or a quarter of their slab
 
 
@@ -28,8 +29,9 @@ class Slab:
     Attributes:
         begin, stop: Instants in one segment.
         halvings: That made it.
-        ends: Of its cells, in order.
-        centres: (n,) of each, rad.
+        ends: Of its cells, in order; of one that is turned less its half width, in units of the file.
+        centres: (n,) of each, in units of the file; 0 of joints that are not free. Of a cell that is turned, or the next
+            one, that of the locked joint is the place on the path, in instants from the last knot.
         step: Of the next cell.
     """
 
@@ -37,8 +39,13 @@ class Slab:
     stop: int
     halvings: int = 0
     ends: list[int] = field(default_factory=list)
-    centres: list[Array] = field(default_factory=list)
+    centres: list[Ints] = field(default_factory=list)
     step: int = 0
+
+    @property
+    def anew(self) -> Slab:
+        """Without what is found, the first cell as long as it."""
+        return Slab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
 
     @property
     def at(self) -> int:
@@ -58,6 +65,65 @@ class Slab:
     def lengthened(self) -> None:
         """The next step: up to twice as long, but such that cells are halves of halves of a segment."""
         self.step = min(2 * self.step, self.at & -self.at, SEGMENT)
+
+
+def led(f: Following, slab: Slab, before: Forms) -> tuple[list[int], list[Ints], Forms] | None:
+    """Turned cells from where a slab is, and one behind them that is not: ends, centres, and what is found in the last."""
+    base, first = slab.at // SEGMENT * SEGMENT, not slab.ends
+    lock = np.array([slab.begin]), np.array([slab.stop])
+    q, place = f.healthy(sum(lock), lock[1])[0][0], (slab.begin + slab.stop) / (2 * SEGMENT)
+    if not first:
+        ends, at = f.end(before)
+        q, place = ends[0], float(at[0])
+    ends, centres = list[int](), list[Ints]()
+    for _ in range(_TURNED):
+        by = _WIDEST * 0.5 ** np.arange(_NARROWER)
+        middles, places = f.ahead(q, place, base, _REACH * by)
+        some = np.flatnonzero((places > base) & (places <= base + SEGMENT))
+        if not some.size:
+            return None
+        width = np.rint(by[some] / UNIT).astype(np.int64)
+        cells = Cells(*(np.repeat(x, len(some)) for x in lock), places[some], places[some], width)
+        forms = f.forms(f.placed(middles[some], cells), cells)
+        from_there = before.take(np.zeros(len(some), dtype=np.int64))
+        good = forms.good & (f.begins(forms, cells) if first else f.goes_on(from_there, forms))
+        if not good.any():
+            return None
+        best = int(good.argmax())
+        before, first = forms.take(np.array([best])), False
+        ends.append(-int(width[best]))
+        centres.append(_row(f, before, int(places[some][best]) - base))
+        if (left := _straight(f, lock, base, before)) is not None:
+            form, start, end = left
+            return [*ends, end], [*centres, _row(f, form, start - base)], form
+        end_q, end_place = f.end(before)
+        q, place = end_q[0], float(end_place[0])
+    return None
+
+
+def _straight(f: Following, lock: tuple[Ints, Ints], base: int, before: Forms) -> tuple[Forms, int, int] | None:
+    """The longest cell that is not turned behind one that is, with its start and end; None: there is none."""
+    q, place = f.end(before)
+    spread = np.abs(before.own[0, -1, 0]) * before.half[0, 0] + (np.abs(before.own[0, -1, 2:]) * before.half[0, 2:]).sum()
+    low, high = (int(np.floor((place[0] + sign * 1.01 * spread) * SEGMENT)) + (sign > 0) for sign in (-1, 1))
+    start = max(low - 1, base)
+    tries = sorted({min((high >> k) + 1 << k, base + SEGMENT) for k in range(max(1, (high - low).bit_length() - 1), 20)})
+    ends = np.array([end for end in tries if end > high], dtype=np.int64)
+    if not ends.size:
+        return None
+    count = len(ends)
+    cells = Cells(*(np.repeat(x, count) for x in lock), np.full(count, start), ends, np.zeros(count, dtype=np.int64))
+    forms = f.forms(f.solved(np.repeat(q, count, axis=0), cells), cells)
+    good = np.flatnonzero(forms.good & f.goes_on(before.take(np.zeros(count, dtype=np.int64)), forms))
+    return None if not good.size else (forms.take(good[-1:]), start, int(ends[good[-1]]))
+
+
+def _row(f: Following, form: Forms, place: int) -> Ints:
+    """A centre as the file has it."""
+    row = np.round(form.q[0] / UNIT).astype(np.int64)
+    row[f.still] = 0
+    row[f.still[0]] = place
+    return row
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,9 +164,9 @@ class March:
 
     Args:
         following: The locked arm and the path.
-        during: Of the lock instants, the first and last.
+        slabs: Of lock instants.
         halvings: Of slabs, at most.
-        glue: Whether cells must go on with each other. Without, what exists may be no motion.
+        most: Cells that are looked at before no more slabs begin.
 
     Attributes:
         proved: Slabs, in no order.
@@ -108,33 +174,36 @@ class March:
         closed: Instants of slabs that are done with.
     """
 
-    def __init__(self, following: Following, during: tuple[int, int], halvings: int, *, glue: bool = True) -> None:
-        self.following, self._halvings, self._glue = following, halvings, glue
+    def __init__(self, following: Following, slabs: Sequence[Slab], halvings: int, most: float = np.inf) -> None:
+        self.following, self._halvings, self._most = following, halvings, most
         self._end = (len(following.knots) - 1) * SEGMENT
         self.proved: list[Slab] = []
         self.nodes, self.closed = 0, 0
-        first, last = during
-        faces = [first, *range((first // SEGMENT + 1) * SEGMENT, last, SEGMENT), last]
-        self._waiting = deque(Slab(a, b, step=b - a) for a, b in pairwise(faces))
+        self._waiting = deque(slab.anew for slab in slabs)
         self._moving: list[Slab] = []
         self._failed: list[Slab] = []
         self._before: Forms | None = None
 
     def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> bool:
-        """On with it until it is time (``monotonic``), or to stop; whether nothing is left to do."""
-        while self.open and monotonic() < until and not stop():
+        """On with it until it is time (``monotonic``), or to stop; whether only slabs that have not begun are left."""
+        while (self._moving or self._waiting or self._failed) and monotonic() < until and not stop():
             if not (self._moving or self._waiting):
                 self._halved()
-            self._filled()
+            if self.nodes < self._most:
+                self._filled()
+            elif not self._moving:
+                break
             if self._moving:
                 self._moved()
             tell()
-        return not self.open
+        if self._failed and not self._moving and self.nodes >= self._most:
+            self._halved()
+        return not (self._moving or self._failed or (self._waiting and self.nodes < self._most))
 
     @property
-    def open(self) -> bool:
-        """Whether something is left to do."""
-        return bool(self._moving or self._waiting or self._failed)
+    def left(self) -> list[Slab]:
+        """Slabs that have not begun, in order."""
+        return sorted(self._waiting, key=lambda slab: slab.begin)
 
     def _filled(self) -> None:
         """Slabs that wait begin where there is room."""
@@ -145,8 +214,8 @@ class March:
         f, count = self.following, len(new)
         columns = 2 + len(f.tube) + f.m
         none = Forms(
-            np.zeros((count, f.n)), np.zeros((count, f.m, columns)), np.zeros((count, columns)), np.zeros((count, f.m)),
-            np.zeros(count, dtype=bool),
+            np.zeros((count, f.n)), np.zeros(count), np.zeros(count, dtype=bool), np.zeros((count, f.m + 1, columns)),
+            np.zeros((count, columns)), np.zeros((count, f.m)), np.zeros(count, dtype=bool),
         )  # fmt: skip
         self._before = none if self._before is None else self._before.joined(none)
 
@@ -154,34 +223,54 @@ class March:
         """The next cell of each slab: found, or half as long, or given up."""
         assert self._before is not None
         f, slabs, before = self.following, self._moving, self._before
-        cells = Cells(*(np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next")))
+        ends = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
+        cells = Cells(*ends, width=np.zeros(len(slabs), dtype=np.int64))
         first = np.array([not slab.ends for slab in slabs])
         middle = before.half[:, 1] + cells.half[:, 1]
         q = f.guessed(before, cells, middle)
         q[first] = f.healthy(cells.start + cells.end, cells.end)[0][first]
         q = f.solved(q, cells)
+        rows = np.round(q / UNIT).astype(np.int64)
+        rows[:, f.still] = 0
         forms = f.forms(q, cells)
         self.nodes += len(slabs)
-        goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms) if self._glue else True)
-        good, kept = forms.good & goes_on, []
+        goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms))
+        good, kept, turned = forms.good & goes_on, list[int](), dict[int, Forms]()
         for k, slab in enumerate(slabs):
             if good[k]:
                 slab.ends.append(slab.next)
-                slab.centres.append(q[k])
-                if slab.at == self._end:
-                    self.proved.append(slab)
-                    self.closed += slab.stop - slab.begin
-                    continue
+                slab.centres.append(rows[k])
                 slab.lengthened()
             elif not slab.shortest:
                 slab.step //= 2
+            elif (left := self._turned(slab, before.take(np.array([k])))) is not None:
+                turned[k] = left
             else:
                 self._given_up(slab)
                 continue
-            kept.append(k)
+            if slab.at < self._end:
+                kept.append(k)
+                continue
+            self.proved.append(slab)
+            self.closed += slab.stop - slab.begin
         chosen = np.array(kept, dtype=np.int64)
-        self._before = before.replaced(forms, good).take(chosen)
+        after = before.replaced(forms, good)
+        for k, left in turned.items():
+            after = after.replaced(left.take(np.zeros(len(slabs), dtype=np.int64)), np.arange(len(slabs)) == k)
+        self._before = after.take(chosen)
         self._moving = [slabs[k] for k in kept]
+
+    def _turned(self, slab: Slab, before: Forms) -> Forms | None:
+        """What is found in the cell behind some that are turned, if these lead on from where a slab is; None: nothing does."""
+        f = self.following
+        if len(f.tube) or slab.halvings < _PLAIN or (found := led(f, slab, before)) is None:
+            return None
+        ends, centres, left = found
+        slab.ends += ends
+        slab.centres += centres
+        slab.step = slab.at & -slab.at
+        slab.lengthened()
+        return left
 
     def _given_up(self, slab: Slab) -> None:
         """To be halved, if that is of any use."""
