@@ -313,7 +313,7 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     driven = Driven(moved.write(tmp_path / "a.certificate"))
     faults = verifier.motions.Faults(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
-    balls = verifier.Balls
+    balls = verifier.motions.Balls
     with verifier.flint.ctx.workprec(64):
         error, first, second = (x[0] for x in faults.expanded(balls(q[None]), balls(h[None])))
 
@@ -345,7 +345,7 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     following = Following(chain, proof.claim.knots, 6, [1], np.empty(0), np.column_stack([panda.lower, panda.upper]))
     q, goal = START[None] + 0.01, START[None]
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x.at[0] for x in faults.expanded(verifier.Balls(q), verifier.Balls(goal)))
+        error, first, second = (x.at[0] for x in faults.expanded(verifier.motions.Balls(q), verifier.motions.Balls(goal)))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
         now = following._missed(following._moved(q + ours), following._moved(goal + theirs))[0][0]

@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from written import Chain, place, planar, put, shifted, turn
 
 from holdfast.certificates import verifier
+from holdfast.certificates.verified import files
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 START = np.radians([0, -10, 0, -110, 0, 100, 45])
@@ -124,12 +125,13 @@ def tightness(rng, chain, q, task, half, *, lock, angle, where, rotation=None, s
     leaves = verifier.Leaves(document)
     counts = np.round(q * 2**24).astype(int) * (np.arange(n) != lock)
     with verifier.flint.ctx.workprec(64):
-        parts = leaves.expanded(((0, 0),) * len(leaves.width), counts)
-        matrix = leaves.section(np.array([[[float(x) for x in row] for row in parts[1].tolist()]]))[0]
-        bounds = [np.array([x]) for x in leaves.bounds(*parts, matrix)]
+        joints, axes = leaves.placed([(((0, 0),) * len(leaves.width), counts)])
+        parts = [x[:, : leaves.m] for x in leaves.rows.error(leaves.moved(joints), axes[: leaves.p])]
+        sections = leaves.section(parts[1].at)
+        matrix, bounds = sections[0], leaves.bounds(*parts, sections)
     widths = np.array([float(w) / 2 for w in leaves.width])
     w = np.concatenate([widths, rng.uniform(0.1, 1, leaves.m) * np.max(half) if section is None else section])
-    e, far, _ = leaves.excess(bounds, np.abs(matrix)[None], np.array([counts / 2**24]), w[None])
+    e, far, _ = leaves.excess(bounds, np.array([[joint[0, 0] for joint in joints]]), w[None])
     ends = rng.choice([-1.0, 1.0], (300, len(w))) * np.where(rng.random((300, len(w))) < 0.7, 1, rng.random((300, len(w))))
     tight = 0.0
     for step in ends * w:
@@ -468,6 +470,7 @@ def test_a_bad_file_gets_one_sentence(locked, tmp_path, forge, said):
     forge(bad)
     if "is not what" not in said:
         with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(files, "sentence", lambda d: "a claim")
             patch.setattr(verifier, "sentence", lambda d: "a claim")
             patch.setattr(verifier, "MOST_LEAVES", 1000)
             with contextlib.suppress(KeyError, ValueError, OverflowError):

@@ -6,6 +6,7 @@ import yaml
 
 import holdfast as hf
 from holdfast.designs.synthesis.axes import axes_of, poses_of
+from holdfast.designs.synthesis.orders import distinct_orders
 
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 
@@ -111,6 +112,23 @@ def test_a_reversed_order_is_the_same_arm_read_from_the_tool(rng):
         assert least(one.jacobian(q)) == pytest.approx(least(other.jacobian(-q[::-1])), abs=1e-10)
 
 
+def test_orders_that_a_symmetry_makes_the_same_are_judged_once(rng, pa10_7):
+    corners = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    up = np.array([[0, 0, 1.0]] * 4) * rng.choice([-1, 1], (4, 1))
+    # Paths through the corners of a square, up to its symmetries: by the sides, and with one or two diagonals.
+    assert len(distinct_orders(up @ turn.T, corners @ turn.T + rng.normal(size=3))) == 3
+    w = rng.normal(size=(5, 3))
+    assert len(distinct_orders(w / np.linalg.norm(w, axis=1, keepdims=True), rng.normal(size=(5, 3)))) == 60
+
+
+def test_the_front_of_orders_is_that_of_fresh_samples(rng, pa10_7):
+    found = hf.designs.judge_orders(pa10_7.jacobian(rng.uniform(-1, 1, 7)), samples=100, at_most=40, thresholds=(0.1, 0.2))
+    assert (np.diff(found.lengths[found.front]) > 0).all()
+    assert (np.diff(found.fresh) > 0).all()
+    assert len(found.front) == len(found.fresh) >= 1
+
+
 def test_orders_that_cannot_be_judged(pa10):
     with pytest.raises(hf.InputError, match="say how many with at_most"):
         hf.designs.judge_orders(pa10.jacobian(np.full(9, 0.3)))
@@ -146,29 +164,31 @@ def test_a_changed_digit_is_found(book, tmp_path):
 
 
 def test_a_record_in_mujoco(book):
-    """The arm, built in MuJoCo from its table, has at home the index that the record claims: Jacobian by MuJoCo."""
+    """The arm, exported as URDF and read by MuJoCo, has at home the index that the record claims: Jacobian by MuJoCo."""
     mujoco = pytest.importorskip("mujoco")
     record = book["pose-9R-k2-001"]
     arm = record.arm
-    body, end = "", ""
-    for k, joint in enumerate(arm.joints):
-        x, y, z, w = _quaternion(joint.origin[:3, :3])
-        place = " ".join(map(repr, joint.origin[:3, 3].tolist()))
-        body += f'<body pos="{place}" quat="{w} {x} {y} {z}"><joint axis="{" ".join(map(repr, joint.axis.tolist()))}"/>'
-        body += f'<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>{"" if k < arm.n - 1 else "<site/>"}'
-        end += "</body>"
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{body}{end}</worldbody></mujoco>")
+    model = mujoco.MjModel.from_xml_string(hf.arms.urdf_text(arm))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    j = np.zeros((6, arm.n))
-    mujoco.mj_jacSite(model, data, j[:3], j[3:], 0)
+    j, last = np.zeros((6, arm.n)), model.nbody - 1
+    tool = data.xpos[last] + data.xmat[last].reshape(3, 3) @ arm.tool[:3, 3]
+    mujoco.mj_jac(model, data, j[:3], j[3:], tool, last)
     null = np.linalg.svd(j)[2][6:].T
     pairs = [np.sqrt(np.linalg.det(null[[a, b]] @ null[[a, b]].T)) for a in range(9) for b in range(a)]
     assert min(pairs) == pytest.approx(record.data.value, rel=1e-8)
     assert hf.indices.relative_manipulability(arm, "pose", 2)(record.q) == pytest.approx(record.data.value, rel=1e-9)
 
 
-def _quaternion(rotation):
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_matrix(rotation).as_quat().tolist()
+@pytest.mark.parametrize("name", ["panda", "ur5-rail", "planar-3r"])
+def test_an_arm_written_as_urdf_is_the_same_arm(name, tmp_path, rng):
+    arm, file = hf.arms.load(name), tmp_path / "arm.urdf"
+    file.write_text(hf.arms.urdf_text(arm), encoding="utf-8")
+    again = hf.Arm.from_urdf(file)
+    q = rng.uniform(-1, 1, arm.n)
+    assert again.forward_kinematics(q) == pytest.approx(arm.forward_kinematics(q), abs=1e-14)
+    for mine, its in zip(arm.joints, again.joints, strict=True):
+        assert (mine.name, mine.lower, mine.velocity, mine.effort) == (its.name, its.lower, its.velocity, its.effort)
+    for mine, its in zip(arm.links, again.links, strict=True):
+        assert (mine is None) == (its is None)
+        assert mine is None or (mine.mass == its.mass and its.inertia == pytest.approx(mine.inertia, abs=1e-12))

@@ -45,6 +45,14 @@ class FaultBatch(Result):
     def __len__(self) -> int:
         return len(self.episodes)
 
+    def times_of(self, joints: Sequence[str]) -> Array:
+        """(N, n) when each of these joints locks, s: an episode for each run of :func:`holdfast.simulate`.
+
+        Raises:
+            InputError: See :meth:`holdfast.faults.FaultEvents.times_of`.
+        """
+        return np.array([events.times_of(joints) for events in self.episodes])
+
     def describe(self) -> list[str]:
         """How many episodes have how many faults."""
         count = [len(events) for events in self.episodes]

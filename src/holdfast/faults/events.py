@@ -5,10 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import InputError
 from holdfast.faults.entry import Kind
 
 
@@ -61,6 +65,25 @@ class FaultEvents(tuple[FaultEvent, ...]):
 
     def __new__(cls, events: Iterable[FaultEvent] = ()) -> FaultEvents:  # noqa: D102
         return super().__new__(cls, sorted(events, key=lambda e: (e.onset, e.joint, e.kind, e.end)))
+
+    def times_of(self, joints: Sequence[str]) -> NDArray[np.float64]:
+        """(n,) when each of these joints locks, s, infinite for never: for :func:`holdfast.simulate`.
+
+        Raises:
+            InputError: Another joint, a fault of another kind, or a lock that is over again or elsewhere than at the joint.
+        """
+        times = np.full(len(joints), np.inf)
+        for event in self:
+            stays = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
+            if not stays or event.parameters.get("at", "here") != "here":
+                raise InputError(
+                    f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
+                    "--physics, or use holdfast.simulate_faults"
+                )
+            if event.joint not in joints:
+                raise InputError(f"a fault names joint '{event.joint}'; the joints are {', '.join(joints)}")
+            times[joints.index(event.joint)] = min(times[joints.index(event.joint)], event.onset)
+        return times
 
     @property
     def id(self) -> str:

@@ -30,7 +30,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
-from holdfast.grammar import is_number
+from holdfast.grammar import is_number, measures
 from holdfast.present.printing import console
 from holdfast.present.results import printed, said
 
@@ -87,6 +87,14 @@ def command(
     tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
     time_limit: Annotated[
         float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.", show_default=False)
+    ] = None,
+    tolerance: Annotated[
+        str | None,
+        typer.Option(
+            "--tolerance",
+            help="By which each row may be missed without harm, for example 1mm,0.5deg: proofs are tried for that too.",
+            show_default=False,
+        ),
     ] = None,
     accelerations: Annotated[
         str | None,
@@ -167,6 +175,7 @@ def command(
         starts=starts,
         tries=tries,
         time_limit=time_limit,
+        tolerance=None if tolerance is None else tuple(measures("--tolerance", tolerance)),  # type: ignore[arg-type]
         accelerations=most,
         period=period,
         seed=seed,
