@@ -162,9 +162,9 @@ def test_turned_cells_that_a_forger_changes_are_rejected(singular, tmp_path):
     forgers = [
         recut(moved_by(where[0], -(1 << 28))),
         recut(moved_by(where[0], numbers(singular.document, 0)[where[0]] * -1 + SEGMENT)),
-        recut(moved_by(3 * row, 1 << 14), key="centres", kind="<i4"),
+        recut(moved_by(3 * row, 1 << 17), key="centres", kind="<i4"),
         recut(moved_by(3 * row + 1, 1 << 22), key="centres", kind="<i4"),
-        recut(moved_by(last + 1, 1)),
+        recut(moved_by(last + 1, -(1 << 19))),
         put(("tube", 0), (1e-5).hex()),
     ]
     for forge in forgers:
