@@ -70,7 +70,7 @@ class Slab:
 
 
 def led(f: Following, slab: Slab, before: Forms) -> tuple[list[int], list[Ints], Forms] | None:
-    """Turned cells from where a slab is, and one behind them that is not: ends, centres, and what is found in the last."""
+    """Turned cells behind what a slab has, and one behind them that is not: ends, centres, and what is found in the last."""
     base, first = slab.at // SEGMENT * SEGMENT, not slab.ends
     lock = np.array([slab.begin]), np.array([slab.stop])
     q, place = f.healthy(sum(lock), lock[1])[0][0], (slab.begin + slab.stop) / (2 * SEGMENT)
@@ -264,7 +264,7 @@ class March:
         self.closed += slab.stop - slab.begin
 
     def _turned(self, slab: Slab) -> bool:
-        """Whether turned cells lead on from where a slab is, and one behind them that is not."""
+        """Whether turned cells lead on from a slab, and one behind them that is not."""
         f = self.following
         assert slab.found is not None
         found = None if len(f.tube) or slab.halvings < _PLAIN else led(f, slab, slab.found)
