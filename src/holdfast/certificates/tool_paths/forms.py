@@ -171,7 +171,9 @@ class Following:
         place = (cells.start + cells.end) / (2 * SEGMENT)
         if turned.any():
             some = [x[turned] for x in given]
-            good[turned] &= self._forward(*some, half[turned], own[turned], (place - (cells.end - 1) // SEGMENT - 1)[turned])
+            good[turned] &= self._forward(
+                some[0], some[1], some[2], half[turned], own[turned], (place - (cells.end - 1) // SEGMENT - 1)[turned]
+            )
         return Forms(q, place, turned, own, half, only, good)
 
     def _section(self, slopes: Array, rate: Array, along: Array, turned: Flags) -> Array:
@@ -231,7 +233,7 @@ class Following:
         q[:, self.free] += before.own[:, :-1, 1] * middle[:, None]
         return self.placed(q, cells)
 
-    def ahead(self, q: Array, place: Array, base: int, by: Array) -> tuple[Array, Array]:
+    def ahead(self, q: Array, place: float, base: int, by: Array) -> tuple[Array, Ints]:
         """From a configuration (n,) of the motion at a place of a segment: along its tangent by (N,), and back onto it."""
         held, end = q[self.still[0]], np.array([base + SEGMENT])
         z = np.tile(np.append(q, place), (len(by), 1))
@@ -351,7 +353,7 @@ class Following:
             slope[:, : self._linear] += (np.einsum("k,nkb,nk->nb", self.chain.lengths, own, sums**2) / 2)[:, None]
             turn += own[:, -1]
         slope[:, self._linear :] += (turn * far.sum(axis=1)[:, None] ** 2 / 2)[:, None]
-        return slope
+        return np.asarray(slope)
 
     def _contracts(self, reach: Array, left: Array, second: Array, half: Array, wide: Array) -> Flags:
         """Whether there is at most one solution in section boxes (N, m)."""
@@ -371,7 +373,7 @@ class Following:
 def _tangent(wide: Array) -> tuple[Array, Array]:
     """Unit vectors (N, m + 1) that matrices (N, m, m + 1) take to 0, the last number positive, and pseudo-inverses."""
     tangent = np.linalg.svd(wide)[2][:, -1]
-    return tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0), np.linalg.pinv(wide)
+    return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(np.linalg.pinv(wide))
 
 
 def _twice(axes: Array, columns: Array, moves: Array) -> Array:

@@ -73,19 +73,19 @@ def led(f: Following, slab: Slab, before: Forms) -> tuple[list[int], list[Ints],
     """Turned cells behind what a slab has, and one behind them that is not: ends, centres, and what is found in the last."""
     base, first = slab.at // SEGMENT * SEGMENT, not slab.ends
     lock = np.array([slab.begin]), np.array([slab.stop])
-    q, place = f.healthy(sum(lock), lock[1])[0][0], (slab.begin + slab.stop) / (2 * SEGMENT)
+    q, place = f.healthy(lock[0] + lock[1], lock[1])[0][0], (slab.begin + slab.stop) / (2 * SEGMENT)
     if not first:
-        ends, at = f.end(before)
-        q, place = ends[0], float(at[0])
+        there, at = f.end(before)
+        q, place = there[0], float(at[0])
     ends, centres = list[int](), list[Ints]()
     for _ in range(_TURNED):
-        by = _WIDEST * 0.5 ** np.arange(_NARROWER)
+        by = np.asarray(_WIDEST * 0.5 ** np.arange(_NARROWER), dtype=np.float64)
         middles, places = f.ahead(q, place, base, _REACH * by)
         some = np.flatnonzero((places > base) & (places <= base + SEGMENT))
         if not some.size:
             return None
         width = np.rint(by[some] / UNIT).astype(np.int64)
-        cells = Cells(*(np.repeat(x, len(some)) for x in lock), places[some], places[some], width)
+        cells = Cells(np.repeat(lock[0], len(some)), np.repeat(lock[1], len(some)), places[some], places[some], width)
         forms = f.forms(f.placed(middles[some], cells), cells)
         from_there = before.take(np.zeros(len(some), dtype=np.int64))
         good = forms.good & (f.begins(forms, cells) if first else f.goes_on(from_there, forms))
@@ -114,7 +114,9 @@ def _straight(f: Following, lock: tuple[Ints, Ints], base: int, before: Forms) -
     if not ends.size:
         return None
     count = len(ends)
-    cells = Cells(*(np.repeat(x, count) for x in lock), np.full(count, start), ends, np.zeros(count, dtype=np.int64))
+    cells = Cells(
+        np.repeat(lock[0], count), np.repeat(lock[1], count), np.full(count, start), ends, np.zeros(count, dtype=np.int64)
+    )
     forms = f.forms(f.solved(np.repeat(q, count, axis=0), cells), cells)
     good = np.flatnonzero(forms.good & f.goes_on(before.take(np.zeros(count, dtype=np.int64)), forms))
     return None if not good.size else (forms.take(good[-1:]), start, int(ends[good[-1]]))
@@ -125,7 +127,7 @@ def _row(f: Following, form: Forms, place: int) -> Ints:
     row = np.round(form.q[0] / UNIT).astype(np.int64)
     row[f.still] = 0
     row[f.still[0]] = place
-    return row
+    return np.asarray(row)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,8 +229,8 @@ class March:
         """The next cell of each slab: found, or half as long, or given up."""
         assert self._before is not None
         f, slabs, before = self.following, self._moving, self._before
-        ends = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
-        cells = Cells(*ends, width=np.zeros(len(slabs), dtype=np.int64))
+        begin, stop, start, end = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
+        cells = Cells(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
         first = np.array([not slab.ends for slab in slabs])
         middle = before.half[:, 1] + cells.half[:, 1]
         q = f.guessed(before, cells, middle)
