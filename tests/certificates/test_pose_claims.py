@@ -33,7 +33,7 @@ def test_the_error_is_never_larger_than_its_bound(locked, turning, rng):
     tool = arm.forward_kinematics(q)
     nearly = Rotation.from_rotvec(rng.uniform(-0.01, 0.01, 3)).as_matrix()
     wanted = (tool[:, :3, :3] @ nearly) if turning else np.tile(tool[0, :3, :3] @ nearly, (count, 1, 1))
-    reach = Reach(arm, 6, locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
+    reach = Reach(arm, "pose", locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
     targets = tool[:, :3, 3] + rng.uniform(-1e-3, 1e-3, (count, 3))
     if turning:
         targets = np.concatenate([targets, Rotation.from_matrix(wanted).as_euler("xyz")], axis=1)
