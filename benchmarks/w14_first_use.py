@@ -30,7 +30,17 @@ HERE = Path(__file__).resolve().parents[1]
 SINGLE = ("arms", "describe", "index", "susceptibility", "optimise", "follow", "free-swing", "simulate", "recover")
 SINGLE += ("stationary-points",)
 SINGLE += ("self-motion", "export", "report", "help", "import holdfast", "study new", "study status", "study verify")
-SINGLE += ("study merge", "teleop allocation", "teleop protocol", "teleop texts", "teleop serve", "studio")
+SINGLE += ("cell check", "certificate show", "certify structural-zero", "ceiling", "faults draw", "records list")
+SINGLE += (
+    "records show",
+    "records check",
+    "study merge",
+    "teleop allocation",
+    "teleop protocol",
+    "teleop texts",
+    "teleop serve",
+    "studio",
+)
 SERVERS = ("studio", "teleop serve")  # timed until they say where the page is
 
 REGION = """name: in front of the robot
@@ -44,7 +54,18 @@ line:
   to: {xyz: [0.5, 0.25, 0.4], urdf_rpy: [180, 0, 0]}
 timing: {duration: 8}
 """
+FILES = {
+    "path.yaml": PATH,
+    "line.yaml": PATH,
+    "cell.yaml": REGION,
+    "bench.yaml": "objects: {table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.6, 0, -0.02]}}}\n",
+    "faults.yaml": "faults: [{kind: locked, onset: {uniform: [0.3, 1.5]}}]\n",
+    "motion.csv": "joint1_rad,joint2_rad,joint3_rad\n0.3,0.8,1.1\n0.35,0.77,1.15\n",
+}
 STUDY = "holdfast study new tools.yaml --arm panda --arm iiwa14 --poses 200 --chunk 100 --seed 1"
+EXPERIMENT = "holdfast teleop run --simulated --operators 24 --seed 1 --out experiment"
+CERTIFICATE = "holdfast certify reach planar-3r --box '1.5 0.5' --size 0.4 --lock joint2=0.9..1.1"
+HEALTHY = "holdfast rehearse panda --records 2 --out healthy"
 EARLIER = {  # what somebody has run before, not timed
     "report": ["holdfast assess planar-3r --poses 200 --seed 1 --out results"],
     "study run": [STUDY],
@@ -52,8 +73,12 @@ EARLIER = {  # what somebody has run before, not timed
     "study verify": [STUDY, "holdfast study run tools.yaml --out tools"],
     "study report": [STUDY, "holdfast study run tools.yaml --out tools"],
     "study merge": [STUDY, *(f"holdfast study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
-    "teleop analyse": ["holdfast teleop run --simulated --operators 24 --seed 1 --out study"],
+    **{f"teleop {of}": [EXPERIMENT] for of in ("analyse", "backup", "export", "replay", "subjects", "verify")},
+    **{f"certificate {of}": [CERTIFICATE] for of in ("check", "show")},
+    "calibrate": [HEALTHY],
+    "diagnose": [HEALTHY, "holdfast calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json"],
 }
+GROUPS = ("bench", "cell", "certificate", "certify", "faults", "records", "study", "teleop")  # their commands have two words
 ELSEWHERE = ("--scheduler", "/mnt/")  # needs another machine, or writes outside of the folder that is thrown away
 
 
@@ -118,7 +143,7 @@ def name_of(command: str) -> str:
         return command
     if words[1].startswith("-"):
         return "help"
-    return " ".join(words[1 : 3 if words[1] in ("study", "teleop") else 2])
+    return " ".join(words[1 : 3 if words[1] in GROUPS else 2])
 
 
 def prepare(command: str, folder: Path, candidate: Candidate, cache: Path) -> None:
@@ -127,7 +152,7 @@ def prepare(command: str, folder: Path, candidate: Candidate, cache: Path) -> No
     for old, new in (("panda_link0", "base_link"), ("panda_hand_tcp", "tool0")):
         robot = robot.replace(f'"{old}"', f'"{new}"')
     name = name_of(command)
-    for file, text in (("my_robot.urdf", robot), ("path.yaml", PATH), ("cell.yaml", REGION)):
+    for file, text in {"my_robot.urdf": robot, **FILES}.items():
         if file in command and not name.startswith("study"):
             (folder / file).write_text(text)
     for earlier in EARLIER.get(name, []):

@@ -1,4 +1,4 @@
-"""W18: what the fault wrapper adds to a step, one step of the monitor, and residuals of a record, beside Pinocchio."""
+"""W18: what the fault wrapper adds to a step, the monitor and records beside Pinocchio, and law with monitor in C."""
 
 from __future__ import annotations
 
@@ -145,12 +145,91 @@ def monitor(chosen: argparse.Namespace) -> str:
     return harness.table("The monitor, us", ["what", "holdfast", "pinocchio", "holdfast is faster by", "note"], rows)
 
 
+TIMER = """
+#define _POSIX_C_SOURCE 199309L
+#include "law.h"
+#include "law_monitor.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+enum { N = LAW_JOINTS, CYCLES = %d };
+static law_monitor_state state;
+static double took[CYCLES];
+static int order(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+int main(void) {
+    double q[N], reference[N], torque[N], rates[N], v[LAW_ROWS] = {0.05};
+    struct timespec from, to;
+    law_monitor_verdict told;
+    int k, i;
+    law_monitor_init(&state);
+    for (k = 0; k < CYCLES; ++k) {
+        for (i = 0; i < N; ++i) {
+            reference[i] = 0.3 * sin(1e-3 * k * (1 + 0.1 * i)) + (i == 3 ? -1.5 : i == 5 ? 1.5 : 0);
+            q[i] = reference[i] - 1e-3;
+            torque[i] = 5 * cos(1e-3 * k);
+        }
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+        law(q, v, rates%s);
+        law_monitor_step(&state, q, reference, torque, 0, &told);
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
+        took[k] = 1e6 * (double)(to.tv_sec - from.tv_sec) + 1e-3 * (double)(to.tv_nsec - from.tv_nsec);
+    }
+    qsort(took, CYCLES, sizeof *took, order);
+    printf("%%g %%g %%g\\n", took[CYCLES / 2], took[(int)(0.99 * CYCLES)], took[(int)(0.999 * CYCLES)]);
+    return 0;
+}
+"""
+
+
+def in_c(chosen: argparse.Namespace) -> str:
+    """Law and monitor in C, one control cycle."""
+    import shutil
+    import subprocess
+    import tempfile
+    from pathlib import Path
+
+    import holdfast as hf
+
+    compiler = shutil.which("cc")
+    if compiler is None:
+        return "No C compiler here.\n"
+    arm, cycles = hf.arms.load("panda"), 10_000 if chosen.quick else 200_000
+    t = np.arange(2000) / RATE
+    q = 0.3 * np.sin(np.outer(t, np.linspace(0.5, 1.5, 7)))
+    log = hf.faults.Log(t=t, q_ref=q, q=q - 1e-4 * t[:, None], tau=arm.gravity_torque(q))
+    bounds, rows = hf.diagnosis.calibrate(arm, [log], factor=20.0), []
+    for label, law in (
+        ("pseudoinverse", hf.control.pseudoinverse(arm)),
+        ("failure-tolerant", hf.control.failure_tolerant(arm)),
+    ):
+        with tempfile.TemporaryDirectory() as folder:
+            header = law.export_c(folder, "law").header.read_text(encoding="utf-8")
+            hf.diagnosis.export_c(arm, bounds, folder, name="law_monitor")
+            nulls = ", 0" * header[header.index("int law(") :].split(";")[0].count("double *")
+            (Path(folder) / "timer.c").write_text(TIMER % (cycles, nulls), encoding="utf-8")
+            command = [compiler, "-std=c99", "-O2", "timer.c", "law.c", "law_monitor.c", "-lm", "-o", "timer"]
+            subprocess.run(command, cwd=folder, check=True)
+            told = [
+                subprocess.run([f"{folder}/timer"], capture_output=True, text=True, check=True).stdout.split()
+                for _ in range(chosen.rounds)
+            ]
+        middle = np.median(np.array(told, dtype=float), axis=0)
+        rows.append([f"law {label} and monitor", *(f"{x:.3g}" for x in middle), "bars: 5 and 50"])
+    head = ["what", "median", "99 %", "99.9 %", "note"]
+    return harness.table(f"A cycle in C, processor time of the thread, us, {cycles} cycles", head, rows)
+
+
 def main() -> None:
     chosen = harness.options(__doc__)
     print("## W18: faults\n")
     print(harness.environment() + "\n")
     print(wrapper(chosen))
     print(monitor(chosen))
+    print(in_c(chosen))
 
 
 if __name__ == "__main__":

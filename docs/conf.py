@@ -51,12 +51,12 @@ nitpick_ignore_regex = [
     (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
     # What a run keeps so that it can be run again.
-    (r"py:class", r"_?Motion|Setting|RestSystem|holdfast\.endurance\.problem\.Problem"),
+    (r"py:class", r"_?Motion|Setting|RestSystem|React|Ended|holdfast\.endurance\.problem\.Problem"),
     (r"py:class", r"holdfast\.control\.export\._Law"),
     (r"py:class", r"holdfast\.certificates\.proof\.(Halved|InParts)"),
     (
         r"py:class",
-        r"holdfast\.(faults\.(scheme\.Jointed|spread\.Spread|kinds\.When)|diagnosis\.signals\.(Scaled|Signals)|ceilings\.ceiling\.OfFailures|designs\.book\.entries\.RecordFile|certificates\.tool_paths\.march\.LockedPath)|Tolerance",
+        r"holdfast\.(faults\.(scheme\.Jointed|spread\.Spread|kinds\.When)|diagnosis\.signals\.(Scaled|Signals)|ceilings\.(ceiling\.OfFailures|least_singular_values\.OfSingularValue)|designs\.book\.entries\.RecordFile|certificates\.tool_paths\.march\.LockedPath)|Tolerance",
     ),
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),

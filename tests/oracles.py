@@ -478,9 +478,19 @@ def swing_angle(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
     return out
 
 
+def attained(j: np.ndarray, whole: np.ndarray) -> float:
+    """What some Jacobian keeps after so many locks: equal entries of the null space, or what is stored."""
+    m, n = whole.shape[-2:]
+    k = n - j.shape[-1]
+    return np.sqrt((n - m) / n) if k == 1 else hf.ceilings.look_up(n=n, m=m, k=k).best_known
+
+
 ORACLES = {
     "index": {  # (reduced Jacobians (N, m, c), whole ones (N, m, n), the index for its settings and task) -> (N,)
         "relative-manipulability": lambda j, whole, of: singular_values(j).prod(-1) / singular_values(whole).prod(-1),
+        "ceiling-fraction": lambda j, whole, of: (
+            singular_values(j).prod(-1) / singular_values(whole).prod(-1) / attained(j, whole)
+        ),
         "manipulability": lambda j, whole, of: singular_values(j).prod(-1),
         "mean-singular-value": lambda j, whole, of: singular_values(j).mean(-1),
         "geometric-mean-singular-value": lambda j, whole, of: singular_values(j).prod(-1) ** (1 / j.shape[-2]),

@@ -12,11 +12,13 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
     HOLDFAST_ROUNDS     of two child processes forked, of two spawned, and of four threads, while kernels are made, 1000 each
     HOLDFAST_INPUTS     mutated input files of every kind, 40000
+    HOLDFAST_WATCHED    random records that the monitor in C and that in Python watch, 10000
     HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
 The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
 a message changed anything, a changed bit of data went unseen, an input file ended in anything but a value or a sentence, a
-process or thread waited for ever, or the 99th percentile of the acknowledgements is above 50 ms, 100 ms among silent sockets.
+process or thread waited for ever, the monitor in C says anything else than that in Python, or the 99th percentile of the
+acknowledgements is above 50 ms, 100 ms among silent sockets.
 """
 
 from __future__ import annotations
@@ -77,6 +79,9 @@ def main() -> int:
     inputs = fuzz_inputs.fuzz(int(option("INPUTS", "40000")), fuzz_inputs.SEED, os.cpu_count() or 1)
     compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
+    watched = option("WATCHED", "10000")
+    same = subprocess.run([sys.executable, str(HERE / "diagnosis" / "c_monitor.py"), watched]).returncode == 0
+
     begin, middle, end = figures.memory
     rows = [
         ("stations, messages/s of each, s", f"{figures.stations}, {figures.rate:g}, {figures.seconds:g}"),
@@ -99,6 +104,7 @@ def main() -> int:
             (f"{rounds} rounds of {kind}", f"{'no deadlock' if well else 'FAILED'} ({took:.0f} s)")
             for kind, (well, took) in alive.items()
         ),
+        (f"{watched} records, the monitor in C", "as in Python" if same else "FAILED"),
         ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
@@ -106,7 +112,7 @@ def main() -> int:
         print(f"  {name:<50} {value}")
     for cause in inputs.causes():
         print(f"  tests/fuzz_inputs.py: {cause}")
-    passed = fuzzed and kept and survived and seen and compiled
+    passed = fuzzed and kept and survived and seen and compiled and same
     lost = figures.lost != 0 or figures.differing != 0 or attack.lost != 0
     slow = figures.p99 > MOST or attack.p99 > MOST_ATTACKED or attack.log > LOG
     return int(lost or slow or bool(inputs.failed) or not (passed and all(well for well, _ in alive.values())))

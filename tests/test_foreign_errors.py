@@ -219,6 +219,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"bandwidth": 10.0, "ratio": 1.0, "rate": 500.0}
             | {"compensation": 1.0, "stiffness": None, "damping": None, "step": 0.001},
         ),
+        "simulate_faults": (
+            hf.simulate_faults,
+            {"law": law, "q0": q, "target": target, "faults": (), "episode": 0, "monitor": None, "react": None, "plan": True}
+            | {"body": None, "servos": None, "centring": 0.0, "pose": True, "time_limit": 0.01, "seed": 0},
+        ),
         "DesignSpace": (lambda vary: hf.design(arm, vary, "no such index"), {"vary": {"a2": (0.5, 1.5)}}),
         "Region.box": (
             hf.Region.box,

@@ -37,7 +37,8 @@ MODULES = {
 EXTRAS = (
     "teleop",
     "studio",
-    "faults.wrapper",
+    "faults.learning.vector",
+    "faults.learning.wrapper",
     "frameworks.jax",
     "frameworks.torch",
 )  # need, or may need, what is not installed

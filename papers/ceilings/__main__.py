@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 import holdfast as hf
+from papers.ceilings import singular_values
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent
@@ -140,6 +141,7 @@ def main() -> None:
     for title, table in (
         ("Certificates of theorem R4", arrangements),
         ("Ceilings", ceilings),
+        ("Ceilings of the least singular value", singular_values.table),
         ("Found again", searches),
         ("Arms that are sold", market),
     ):

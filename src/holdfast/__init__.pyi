@@ -65,6 +65,7 @@ from holdfast.kernels import set_backend as set_backend
 from holdfast.kernels import set_threads as set_threads
 from holdfast.motion import Trajectory as Trajectory
 from holdfast.motion import follow as follow
+from holdfast.physics import Body as Body
 from holdfast.physics import BrakedDrop as BrakedDrop
 from holdfast.physics import Execution as Execution
 from holdfast.physics import FreeSwing as FreeSwing
@@ -77,6 +78,8 @@ from holdfast.reach import TolerantWorkspace as TolerantWorkspace
 from holdfast.reach import joint_bounds as joint_bounds
 from holdfast.reach import reachable_when_locked as reachable_when_locked
 from holdfast.reach import tolerant_workspace as tolerant_workspace
+from holdfast.reaction import FaultRun as FaultRun
+from holdfast.reaction import simulate_faults as simulate_faults
 from holdfast.recovery import Recovery as Recovery
 from holdfast.recovery import recover as recover
 from holdfast.regions import Region as Region

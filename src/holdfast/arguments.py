@@ -94,7 +94,7 @@ _ALIASES = {
     "KeepLike": "Kept | str | Sequence[Any]",
     "Array": "ArrayLike",
     "Progress": "Callable",
-    **dict.fromkeys(("Frame", "JointType", "Method", "MetricName", "Mode", "Over", "RelativeTo", "Sampling"), "str"),
+    **dict.fromkeys(("Frame", "JointType", "Method", "MetricName", "Mode", "Over", "React", "RelativeTo", "Sampling"), "str"),
 }
 
 
@@ -186,14 +186,30 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
     "ndarray": ("an array", lambda x: isinstance(x, np.ndarray)),
 }
 _CLASSES = (
-    *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "Degraded", "DesignSpace", "FailureRates", "Index", "Joint"),
+    *(
+        "Arm",
+        "Assessment",
+        "Body",
+        "Capsules",
+        "Cell",
+        "Clearance",
+        "DH",
+        "Degraded",
+        "DesignSpace",
+        "FailureRates",
+        "Index",
+        "Joint",
+    ),
     *(
         "Kept",
+        "Faults",
         "Law",
         "Link",
+        "Monitor",
         "Objective",
         "Parameter",
         "Places",
+        "Body",
         "BoundClaim",
         "OutOfReachClaim",
         "ReachClaim",

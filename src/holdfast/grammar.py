@@ -22,6 +22,8 @@ FAILURES = {"single": 1, "pairs": 2}  # what has a name among failures, and how 
 FAILURES_HELP = f"{', '.join(FAILURES)}, a number of joints, or sets such as 'joint2; joint1+joint4'"
 
 _WORD = re.compile(r"[A-Za-z_][\w.-]*")
+_UNITS = {"deg": math.pi / 180, "rad": 1.0, "mm": 1e-3, "m": 1.0}
+_WITH_UNIT = re.compile(r"(.*\d\.?)\s*(deg|rad|mm|m)")
 
 
 def is_number(text: str) -> bool:
@@ -31,6 +33,26 @@ def is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def measures(name: str, text: str) -> list[float]:
+    """Numbers by commas, in rad and m: ``2mm,1deg``, ``0.002,0.0175``.
+
+    Args:
+        name: What they are, for people.
+        text: The numbers, each with ``deg``, ``rad``, ``mm``, ``m`` or nothing behind it.
+
+    Raises:
+        InputError: One is no number.
+    """
+    found = []
+    for part in text.split(","):
+        whole = _WITH_UNIT.fullmatch(part.strip())
+        number, unit = whole.groups() if whole else (part.strip(), "m")
+        if not is_number(number):
+            raise InputError(f"{name} '{text}' is not a number; write numbers, in rad and m or as 10deg or 2mm")
+        found.append(float(number) * _UNITS[unit])
+    return found
 
 
 def split(label: str) -> tuple[str, str | None, dict[str, str]]:

@@ -9,6 +9,7 @@ import holdfast as hf
 from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
 from holdfast.certificates.joint_boxes import halving
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, need_room
+from holdfast.certificates.joint_boxes.jobs import summed
 from holdfast.errors import InputError
 
 
@@ -29,7 +30,7 @@ def test_the_estimate_of_a_uniform_tree_is_exact():
     need_room(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
     tree = Halving(box, 60)
     tree.run(along_first(2.0**-11))
-    assert tree.leaves == 2**10
+    assert summed(tree.in_order(), len(box), tree.tested, True).leaves == 2**10
 
 
 def test_poses_in_a_wide_box(panda):

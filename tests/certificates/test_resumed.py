@@ -14,7 +14,9 @@ import pytest
 
 import holdfast as hf
 from holdfast.certificates import reach_claim, tolerant_claim
+from holdfast.certificates.joint_boxes import jobs as boxes
 from holdfast.certificates.target_boxes import jobs
+from holdfast.certificates.tool_paths import jobs as motions
 from holdfast.errors import InputError, StoreError
 from holdfast.present.certificates.console import state
 
@@ -88,8 +90,42 @@ def test_a_part_of_many_cells_is_cut(three, tmp_path, monkeypatch):
     assert again.document["digest"] == proof.document["digest"]
 
 
-def test_what_workers_and_stores_are_not_for(three):
-    with pytest.raises(InputError, match="leave them out"):
-        hf.certify(hf.certificates.out_of_reach_claim(three, (2.9, 1), 0.1), workers=2)
+BEND = np.array([0.3, 1.6, 0.7]) + np.linspace(0, 1, 7)[:, None] * [0.2, -1.2, -0.5]
+FOUR = np.column_stack([[-0.2, 0.4, 0.5, -0.4], [0.2, 0.8, 1.0, 0.1]])
+
+
+def asked(kind, three, flat4):
+    """A claim, and how deep it is looked into."""
+    made = hf.certificates
+    if kind == "path":
+        return made.path_claim(three, BEND, task="planar", failures=[0, 1]), 3
+    if kind == "out-of-reach":
+        return made.out_of_reach_claim(three, (2.5, 1), 0.2, locked={1: (1.45, 1.75)}), 16
+    return made.floor_claim(flat4, FOUR, 0.146, task="planar-pose"), 12
+
+
+@pytest.mark.parametrize("kind", ["path", "out-of-reach", "floor"])
+def test_what_is_halved_and_marches_is_resumed_as_well(three, flat4, tmp_path, monkeypatch, kind):
+    """In jobs so small that there are some: stopped and resumed, in two processes, and what is remembered, all the same."""
+    monkeypatch.setattr(motions, "_JOB", 60)
+    monkeypatch.setattr(boxes, "_JOB", 6)
+    claim, halvings = asked(kind, three, flat4)
+    whole, journal = hf.certify(claim, halvings=halvings), tmp_path / "search.journal"
+    some = hf.certify(claim, halvings=halvings, store=tmp_path, stop=lambda: '"part"' in journal.read_text())
+    assert not some.finished
+    assert some.undecided > whole.undecided
+    again = hf.certify(claim, halvings=halvings, store=tmp_path, workers=1 + (kind == "path"))
+    assert journal.read_text().count('"part"') > 2
+    assert again.document["digest"] == whole.document["digest"]
+    assert (again.nodes, again.leaves, again.finished) == (whole.nodes, whole.leaves, True)
+    check = hf.check_certificate(again.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided) == (0, whole.undecided)
+    remembered = hf.certify(claim, halvings=halvings, store=tmp_path, stop=lambda: True)
+    assert remembered.document["digest"] == whole.document["digest"]
+    with pytest.raises(StoreError, match="another search"):
+        hf.certify(claim, halvings=halvings - 1, store=tmp_path)
+
+
+def test_how_many_workers(three):
     with pytest.raises(InputError, match="workers is 0"):
         hf.certify(reach_claim(three, (1, 1), 0.1), workers=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +10,10 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
+from holdfast.arms.builtin import DATA
 from holdfast.cell.solids import Box, Capsule, Cylinder, Sphere
 from holdfast.clearance.chains import spheres_of
-from holdfast.clearance.cover import cover_of, shape_of
+from holdfast.clearance.cover import SPHERES_TO, cover_of, fitted, shape_of
 from holdfast.clearance.shape import Shape, corners
 from holdfast.errors import ArmError, InputError
 from oracles import random_pose
@@ -97,6 +99,16 @@ def test_the_cover_of_the_panda_is_as_tight_as_it_is_said_to_be(panda):
     assert f"{len(capsules)} capsules" in capsules.source
     assert capsules.describe(panda[0]) == capsules.source
     assert hf.Capsules.from_dict(capsules.to_dict(panda[0]), panda[0]).source == capsules.source
+
+
+def test_the_stored_cover_of_the_panda_is_what_a_fit_gives(panda):
+    _, shape, capsules = panda
+    rows, _, _ = fitted(shape, SPHERES_TO)
+    assert shape.digest in json.loads(DATA.joinpath("covers.json").read_text())
+    assert len(rows) == len(capsules)
+    for part, (link, start, end, radius, _) in zip(capsules, sorted(rows, key=lambda row: row[0]), strict=True):
+        assert part.link == link
+        np.testing.assert_allclose([*part.start, *part.end, part.radius], [*start, *end, radius], atol=1e-5)
 
 
 def test_the_bound_is_below_the_exact_distance_and_misses_no_penetration(panda, rng):

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
+import pytest
+
 import holdfast as hf
 from holdfast.faults import Log
 
@@ -31,3 +34,23 @@ def test_from_records_to_a_page(cli, tmp_path):
     assert code == 2
     assert "it is no .npz file of numbers" in error
     assert Log.load(log).n == 7
+
+
+def test_a_lock_is_found_by_a_self_motion(cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = cli("probe", "panda", "--at", "0 -0.4 0.3 -2 0.2 1.8 0.5", "--csv", "probe.csv")
+    assert code == 0
+    assert "tells 7 of 7 suspects apart" in out
+    arm, (q, rate) = hf.arms.load("panda"), hf.diagnosis.read_motion(hf.arms.load("panda"), "probe.csv")
+    assert rate == pytest.approx(100)
+    code, out, _ = cli("observe", "probe.csv", "--arm", "panda", "--json")
+    assert json.loads(out)["not_shown"] == []
+    fault = [hf.faults.FaultEvent("locked", "panda_joint6", 0.0)]
+    motion = np.stack([np.interp(np.arange(1200) / 1000, np.arange(len(q)) / 100, column) for column in q.T], axis=1)
+    hf.diagnosis.rehearse(arm, motion=motion, faults=fault, seed=3).save("run.npz")
+    code, out, _ = cli("probe", "panda", "--record", "run.npz", "--suspects", "2,panda_joint6")
+    assert code == 3
+    assert "panda_joint6 is locked: decided after" in out
+    code, _, error = cli("probe", "panda")
+    assert code == 2
+    assert "give --at to plan, or --record to decide" in error

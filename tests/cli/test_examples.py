@@ -42,6 +42,10 @@ FIRST = {  # commands before
         "rehearse panda --records 2 --duration 1 --out healthy",
         "calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json",
     ],
+    "observe": [
+        "rehearse panda --records 2 --duration 1 --out healthy",
+        "calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json",
+    ],
     **{f"certificate {of}": ["certify reach planar-3r --box '1.5 0.5' --size 0.2"] for of in ("check", "show")},
     **{f"teleop {of}": [EXPERIMENT] for of in ("replay", "verify", "backup", "export", "subjects")},
 }

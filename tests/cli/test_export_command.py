@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 import holdfast as hf
 
 
@@ -22,6 +24,16 @@ def test_it_is_the_library(ask, tmp_path):
         for key, file in zip(("source", "header", "example", "test"), files, strict=True):
             assert (out / file.name).read_text() == file.read_text()
             assert data[key] == str(out / file.name)
+
+
+def test_a_monitor_stands_beside_the_law(ask, tmp_path):
+    arm, t = hf.arms.load("planar-3r"), np.arange(500) / 1000
+    q = 0.3 * np.sin(np.outer(t, [1.0, 0.5, 0.7]))
+    bounds = hf.diagnosis.calibrate(arm, [hf.faults.Log(t=t, q_ref=q, q=q + 1e-3 * t[:, None])])
+    known = bounds.to_json(tmp_path / "bounds.json")
+    data = ask("export", "planar-3r", "--law", "pseudoinverse", "--monitor", known, "--out", tmp_path)
+    assert (tmp_path / "pseudoinverse_monitor.c").read_text().count("pseudoinverse_monitor_step(") == 1
+    assert str(tmp_path / "pseudoinverse_monitor.h") in data["files"]
 
 
 def test_a_person_reads_what_was_written(cli, tmp_path):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
 import holdfast as hf
 
 
@@ -14,3 +16,32 @@ def test_the_command_prints_what_the_library_draws(cli, tmp_path):
     batch = hf.faults.load(path).seeded(9).batch(hf.arms.load("planar-3r"), episodes=4)
     assert [one["id"] for one in shown["episodes"]] == [events.id for events in batch.episodes]
     assert batch.describe()[0] in cli(*arguments)[1]
+
+
+def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
+    """A fault happens, bounds notice it, the page says when and what was done."""
+    pytest.importorskip("mujoco")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "faults.yaml").write_text("faults: [{kind: locked, joints: [panda_joint4], onset: 0.4}]\n", encoding="utf-8")
+    panda = hf.arms.load("panda")
+    friction = {"coulomb": [0.5] * 7, "viscous": [0.3] * 7}
+    hf.diagnosis.calibrate(panda, [hf.diagnosis.rehearse(panda, 1.0, body=0)], factor=3, **friction).to_json("bounds.json")
+    call = ["simulate", "panda", "--start", "0 0 0 -1.5 0 1.5 0", "--target", "0.3,0.4,0.6", "--task", "position"]
+    call += ["--law", "damped:0.02", "--gain", "2", "--speed-limit", "0.25", "--faults", "faults.yaml"]
+    found = ask(*call, "--physics", "--notice", "bounds.json", "--out", "chain")
+    assert (found["ok"], found["react"], list(found["braked"])) == (True, "chain", ["panda_joint4"])
+    assert found["noticed_s"] > 0.4
+    page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
+    assert "no certified safety function" in page
+    assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
+    assert "add --physics and --faults" in refused(*call, "--notice", "bounds.json")
+    assert "--lock does not go with --faults" in refused(*call, "--physics", "--lock", "1")
+
+
+def test_without_physics_faults_are_locks(ask, refused, tmp_path):
+    path = tmp_path / "faults.yaml"
+    path.write_text("faults: [{kind: locked, joints: [joint2], onset: 0.5}]\n", encoding="utf-8")
+    call = ["simulate", "planar-3r", "--start", "20 40 60", "--degrees", "--target", "1.5,1.5"]
+    assert ask(*call, "--faults", path) == ask(*call, "--lock", "2@0.5")
+    path.write_text("faults: [{kind: limp, joints: [joint2], onset: 0.5}]\n", encoding="utf-8")
+    assert "bodies and motors are needed; add --physics" in refused(*call, "--faults", path)

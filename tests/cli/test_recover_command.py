@@ -86,6 +86,12 @@ def test_anything_less_than_the_whole_goal_is_exit_code_3(cli, more, ending):
     assert (data["ok"], data["ending"]) == (False, ending)
 
 
+def test_a_proof_says_whether_it_holds_within_what_may_be_missed(cli):
+    code, text, _ = cli(*CALL, "--goal", "pose:4,0,0", "--samples", "0", "--tolerance", "1mm,0.5deg")
+    assert code == 3
+    assert "so is what misses it by 1 mm and 0.5 deg" in text
+
+
 def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
     arm = hf.arms.load("planar-3r")
     x, y, _ = arm.forward_kinematics(np.deg2rad([20, 40, 60]))[:3, 3]
@@ -111,8 +117,10 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
         ([*CALL, "--margin", "0.1"], "--margin has no effect"),
         ([*CALL, "--accelerations", "quick"], "--accelerations"),
         ([*CALL, "--accelerations", "3=1"], "no limit of 'joint1'"),
+        ([*CALL, "--tolerance", "1mm"], "give two finite numbers"),
+        ([*CALL, "--tolerance", "1mm,x"], "--tolerance '1mm,x' is not a number"),
     ],
-    ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin", "accelerations", "missing"],
+    ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin", "accelerations", "missing", "one", "number"],
 )
 def test_the_command_refuses_in_one_sentence(refused, call, sentence):
     assert sentence in refused(*call)

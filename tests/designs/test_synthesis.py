@@ -146,29 +146,31 @@ def test_a_changed_digit_is_found(book, tmp_path):
 
 
 def test_a_record_in_mujoco(book):
-    """The arm, built in MuJoCo from its table, has at home the index that the record claims: Jacobian by MuJoCo."""
+    """The arm, exported as URDF and read by MuJoCo, has at home the index that the record claims: Jacobian by MuJoCo."""
     mujoco = pytest.importorskip("mujoco")
     record = book["pose-9R-k2-001"]
     arm = record.arm
-    body, end = "", ""
-    for k, joint in enumerate(arm.joints):
-        x, y, z, w = _quaternion(joint.origin[:3, :3])
-        place = " ".join(map(repr, joint.origin[:3, 3].tolist()))
-        body += f'<body pos="{place}" quat="{w} {x} {y} {z}"><joint axis="{" ".join(map(repr, joint.axis.tolist()))}"/>'
-        body += f'<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>{"" if k < arm.n - 1 else "<site/>"}'
-        end += "</body>"
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{body}{end}</worldbody></mujoco>")
+    model = mujoco.MjModel.from_xml_string(hf.arms.urdf_text(arm))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    j = np.zeros((6, arm.n))
-    mujoco.mj_jacSite(model, data, j[:3], j[3:], 0)
+    j, last = np.zeros((6, arm.n)), model.nbody - 1
+    tool = data.xpos[last] + data.xmat[last].reshape(3, 3) @ arm.tool[:3, 3]
+    mujoco.mj_jac(model, data, j[:3], j[3:], tool, last)
     null = np.linalg.svd(j)[2][6:].T
     pairs = [np.sqrt(np.linalg.det(null[[a, b]] @ null[[a, b]].T)) for a in range(9) for b in range(a)]
     assert min(pairs) == pytest.approx(record.data.value, rel=1e-8)
     assert hf.indices.relative_manipulability(arm, "pose", 2)(record.q) == pytest.approx(record.data.value, rel=1e-9)
 
 
-def _quaternion(rotation):
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_matrix(rotation).as_quat().tolist()
+@pytest.mark.parametrize("name", ["panda", "ur5-rail", "planar-3r"])
+def test_an_arm_written_as_urdf_is_the_same_arm(name, tmp_path, rng):
+    arm, file = hf.arms.load(name), tmp_path / "arm.urdf"
+    file.write_text(hf.arms.urdf_text(arm), encoding="utf-8")
+    again = hf.Arm.from_urdf(file)
+    q = rng.uniform(-1, 1, arm.n)
+    assert again.forward_kinematics(q) == pytest.approx(arm.forward_kinematics(q), abs=1e-14)
+    for mine, its in zip(arm.joints, again.joints, strict=True):
+        assert (mine.name, mine.lower, mine.velocity, mine.effort) == (its.name, its.lower, its.velocity, its.effort)
+    for mine, its in zip(arm.links, again.links, strict=True):
+        assert (mine is None) == (its is None)
+        assert mine is None or (mine.mass == its.mass and its.inertia == pytest.approx(mine.inertia, abs=1e-12))

@@ -9,6 +9,7 @@ import pytest
 
 import holdfast as hf
 from cards import check_card
+from holdfast.arm.poses import pose_of
 from holdfast.errors import InputError
 from holdfast.faults import FaultEvent, Log
 
@@ -84,20 +85,58 @@ def test_nothing_seen_is_not_called_well(panda, bounds, healthy):
     assert not any("healthy" in line or "fine" in line for line in said)
 
 
-def test_a_loop_says_what_a_record_says(panda, bounds, records):
-    for kind in ("locked", "weak"):
-        log = dataclasses.replace(records[kind], x=None, quat=None)
-        monitor = hf.diagnosis.Monitor(panda, dataclasses.replace(bounds, position=np.inf, angle=np.inf))
+@pytest.mark.parametrize("seen", [True, False], ids=["pose", "no pose"])
+def test_a_loop_says_what_a_record_says(seen, panda, bounds, records):
+    monitor = hf.diagnosis.Monitor(panda, bounds)
+    for kind in ("locked", "weak", "sensor_freeze", "slipping_clutch")[: 4 if seen else 2]:
+        log = records[kind] if seen else dataclasses.replace(records[kind], x=None, quat=None)
         whole = monitor.run(log).verdict
-        told = [monitor.step(*rows) for rows in zip(log.q, log.q_ref, log.tau, strict=True)]
+        monitor.reset()
+        there = np.flatnonzero(np.isfinite(log.x).all(axis=1)) if seen else []
+        poses = dict(zip(there, map(pose_of, log.x[there], log.quat[there]), strict=True)) if seen else {}
+        rows = enumerate(zip(log.q, log.q_ref, log.tau, strict=True))
+        told = [monitor.step(*row, pose=poses.get(k)) for k, row in rows]
         first = next(v for v in told if v.alarm)
         assert first.time == pytest.approx(whole.time, abs=1e-9)
         assert (first.joint, first.kind) == (None, "unknown")
         assert (told[-1].joint, told[-1].kind, told[-1].candidates) == (whole.joint, whole.kind, whole.candidates)
         assert told[-1].loss == pytest.approx(whole.loss, nan_ok=True)
-        monitor.reset()
-        assert not monitor.step(log.q[0], log.q_ref[0], log.tau[0]).alarm
-        assert not monitor.step(log.q[0] * np.nan, log.q_ref[0], log.tau[0]).alarm
+        assert told[-1].evidence == whole.evidence
+    monitor.reset()
+    assert not monitor.step(log.q[0], log.q_ref[0], log.tau[0]).alarm
+    assert not monitor.step(log.q[0] * np.nan, log.q_ref[0], log.tau[0], pose=np.full((4, 4), np.nan)).alarm
+
+
+def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):
+    """Without torques: a lock is seen while every reference is slow, and nothing is counted within 0.1 s of fast motion."""
+    logs = [dataclasses.replace(log, tau=None, x=None, quat=None) for log in healthy]
+    alone = hf.diagnosis.calibrate(panda, logs)
+    assert alone.factor == 2.5
+    log = dataclasses.replace(records["locked"], tau=None, x=None, quat=None)
+    monitor = hf.diagnosis.Monitor(panda, alone)
+    found = monitor.run(log).verdict
+    assert (found.joint, found.kind) == ("panda_joint4", "locked")
+    told = [monitor.step(*row) for row in zip(log.q, log.q_ref, strict=True)]
+    assert (told[-1].time, told[-1].joint) == (pytest.approx(found.time), found.joint)
+    hasty = log.q_ref.copy()
+    hasty[800::90, 6] += 2e-3  # 2 rad/s for a sample, every 90 ms
+    assert not monitor.run(dataclasses.replace(log, q_ref=hasty)).verdict.alarm
+    with pytest.raises(InputError, match="neither torques nor slow motion"):
+        hf.diagnosis.calibrate(panda, [dataclasses.replace(log, q_ref=log.q_ref + 1.0 * log.t[:, None])])
+
+
+def test_a_motion_is_looked_at_beforehand(panda, bounds, records):
+    """What is predicted is what happens: the delay within a factor 2, on a robot whose masses are off."""
+    log, i = records["locked"], 3
+    seen = hf.diagnosis.observe(panda, log.q_ref, bounds=bounds)
+    assert seen.unseen == ()
+    assert set(seen.alike) == {"panda_joint1", "panda_joint5", "panda_joint7"}
+    assert np.isfinite(seen.delays[:, i]).all()
+    inertia = panda.inertia_diagonal(log.q_ref[::100]).max(axis=0) + 0.1  # the rotors of rehearse
+    gains = {"stiffness": (20 * np.pi) ** 2 * inertia, "damping": 40 * np.pi * inertia}
+    predicted = hf.diagnosis.expected_delays(bounds, log.q_ref, **gains, onset=0.9)[i]
+    measured = hf.diagnosis.diagnose(panda, log, bounds).verdict.time - 0.9
+    assert predicted / 2 < measured < 2 * predicted
 
 
 def test_false_alarms_are_counted_and_bounded(bounds, healthy):
@@ -113,6 +152,23 @@ def test_false_alarms_are_counted_and_bounded(bounds, healthy):
     assert np.exp(-2 * some) * terms.sum() == pytest.approx(0.05)
 
 
+def test_masses_of_a_robot_are_found_from_its_records(panda):
+    """What rehearse drew, of the links that gravity shows; and tighter bounds, with which another motion does not alarm."""
+    logs = [hf.diagnosis.rehearse(panda, 5.0, seed=20 + k, body=3, pose=False) for k in range(3)]
+    given = {"coulomb": np.full(7, 0.5), "viscous": np.full(7, 0.3)}
+    fit = hf.diagnosis.calibrate(panda, logs[:2], **given, fit=True)
+    true = 1 + np.random.default_rng([1, 3]).uniform(-0.2, 0.2, 7)
+    assert fit.scales[[2, 3, 4]] == pytest.approx(true[[2, 3, 4]], abs=0.08)
+    plain = hf.diagnosis.calibrate(panda, logs[:2], **given)
+    assert (fit.torque[1:6] < plain.torque[1:6]).all()
+    assert fit.torque[1] < 0.75 * plain.torque[1]
+    assert not hf.diagnosis.diagnose(panda, logs[2], dataclasses.replace(fit, tracking=plain.tracking)).verdict.alarm
+    assert fit.coulomb == pytest.approx(0.5, abs=1e-3)
+    torque = fit.body(panda).gravity_torque(np.zeros(7))
+    links = [dataclasses.replace(x, mass=x.mass * s) for x, s in zip(panda.links, fit.scales, strict=True)]
+    assert torque == pytest.approx(dataclasses.replace(panda, links=tuple(links)).gravity_torque(np.zeros(7)))
+
+
 def test_bounds_and_records_come_back_from_files(panda, bounds, healthy, tmp_path):
     known = hf.diagnosis.load(bounds.to_json(tmp_path / "bounds.json"))
     assert all(np.array_equal(getattr(known, name), value) for name, value in vars(bounds).items())
@@ -124,6 +180,28 @@ def test_bounds_and_records_come_back_from_files(panda, bounds, healthy, tmp_pat
     (tmp_path / "bounds.json").write_text("{}", encoding="utf-8")
     with pytest.raises(InputError, match="it is no file of bounds"):
         hf.diagnosis.load(tmp_path / "bounds.json")
+
+
+def test_a_late_pose_from_parquet_is_in_time(panda, bounds, healthy, tmp_path):
+    """A record of a database, whose tool was measured 9 ms before it was written: without saying so it looks like a sensor."""
+    pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    log, late = healthy[0], 9
+    columns = {"t": log.t, "note": ["a"] * len(log.t)}
+    for name in ("q_ref", "q", "tau", "x", "quat"):
+        values = getattr(log, name)
+        if name in ("x", "quat"):
+            values = np.concatenate([np.full((late, values.shape[1]), np.nan), values[:-late]])
+        columns |= {f"{name}_{k + 1}": column for k, column in enumerate(values.T)}
+    parquet.write_table(pyarrow.table(columns), tmp_path / "log.parquet")
+    timely = Log.load(tmp_path / "log.parquet", latency=0.009)
+    assert np.array_equal(timely.q, log.q)
+    assert np.array_equal(timely.x[:-late], log.x[:-late], equal_nan=True)
+    assert not hf.diagnosis.diagnose(panda, timely, bounds).verdict.alarm
+    assert hf.diagnosis.diagnose(panda, Log.load(tmp_path / "log.parquet"), bounds).verdict.kind == "sensor"
+    with pytest.raises(InputError, match="latency is 3 s; it must be 0 or more"):
+        Log.load(tmp_path / "log.parquet", latency=3.0)
+    with pytest.raises(InputError, match="it is no Parquet file of numbers"):
+        Log.load((tmp_path / "log.csv").rename(tmp_path / "x.parquet") if log.save(tmp_path / "log.csv") else "")
 
 
 @pytest.mark.parametrize(

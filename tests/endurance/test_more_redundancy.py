@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import holdfast as hf
+from four_links import configurations
 from holdfast.errors import TaskError
 from unit_links import timed
 
@@ -64,7 +67,40 @@ def test_a_joint_that_cannot_move_is_no_redundancy():
     np.testing.assert_array_equal(stiff.q[:, 3], 0)
 
 
-def test_detours_ask_for_one_degree_of_redundancy(four):
+def test_detours_regain_the_path_where_closed_forms_have_every_pose(four):
+    """With the first joint, or the last, locked three links are left, whose tool is anywhere within a ring but for limits."""
+    machine, path, best = four
+    wide = hf.endure(machine, path, task="planar", mode="detour", samples=9, spacing=0.2, seed=1)
+    assert wide.kind == "lower bound"
+    assert "inverse kinematics found" in wide.describe()[1]
+    points = path.pose(wide.time)[:, :2, 3]
+    every = np.array(
+        [
+            [all(len(configurations(machine.lower, machine.upper, k, x, p)) for p in points[t:]) for k, x in enumerate(q)]
+            for t, q in enumerate(wide.q)
+        ]
+    )
+    assert (~every).sum() > 0
+    assert not (wide.survives & ~every).any()
+    assert (wide.survives != every).mean() <= 0.03  # where limits leave next to nothing the grid of one joint may miss it
+    assert wide.survival >= best.survival - 0.02
+    assert wide.inject(40).alike >= 0.95
+
+
+def test_detours_among_obstacles_ask_for_one_degree_of_redundancy(four):
     machine, path, _ = four
-    with pytest.raises(TaskError, match="detours are looked at with one"):
-        hf.endure(machine, path, task="planar", mode="detour")
+    with pytest.raises(TaskError, match="detours among obstacles or with something kept are looked at with one"):
+        hf.endure(machine, path, task="planar", mode="detour", keep="plane:0,0,1")
+
+
+def test_no_joint_is_held_that_the_task_holds_anyway():
+    """A tool that points straight down sets the roll joint of a crane: held it would leave a surface, not curves."""
+    crane = hf.Arm.from_urdf(Path(__file__).parents[1] / "studio" / "arms" / "inspection-crane.urdf", tip="tool")
+    down = np.diag([1.0, -1.0, -1.0, 1.0])
+    down[:3, 3] = [0.5, -0.3, 0.2]
+    end = down.copy()
+    end[1, 3] = 0.3
+    path = hf.paths.TimedPath(hf.paths.line(down, end), hf.paths.Constant(6.0))
+    best = hf.endure(crane, path, task="pointing", samples=4, spacing=0.3, starts=16)
+    assert "roll" not in best.found.held
+    assert best.guaranteed  # along the rail, or with the other joints if the slide locks

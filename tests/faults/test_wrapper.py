@@ -101,3 +101,85 @@ def test_a_weak_motor_must_carry_the_arm():
     assert none.answer == "not found"
     assert "gravity asks more" in none.why
     assert feasible(panda, goal, {FaultEvent("limp", "panda_joint4", 0.0): -1.8}).answer == "yes"  # its brake holds it
+
+
+def test_a_reduced_range_is_feasible_where_the_elbow_angle_of_the_goal_is_within_it():
+    """Two links of 1 m reach a distance d with an elbow of acos(d^2 / 2 - 1), to either side."""
+    arm = hf.arms.load("planar-2r").with_limits([-3.1, -3.1], [3.1, 3.1])
+    event = FaultEvent("reduced_range", arm.joint_names[1], 0.0, parameters={"lower": 0.3, "upper": 1.0})
+    for elbow, answer in ((0.7, "yes"), (1.5, "not found"), (0.1, "not found")):
+        goal = arm.forward_kinematics([0.4, elbow])[:3, 3]
+        found = feasible(arm, goal, {event: 0.6}, task="planar")
+        assert found.answer == answer, found
+        if answer == "yes":
+            assert found.q[1] == pytest.approx(elbow, abs=1e-5)
+    lock = FaultEvent("locked", arm.joint_names[1], 0.0)
+    goal = arm.forward_kinematics([0.4, 0.7])[:3, 3]
+    found = [feasible(arm, goal, {lock: place}, task="planar", at=[0.0, place]) for place in (0.7, 1.2)]
+    assert [one.answer for one in found] == ["yes", "no"]
+    assert "proved" in found[1].why
+    both = {lock: 0.7, FaultEvent("reduced_range", arm.joint_names[0], 0.0, parameters={"lower": 0.0, "upper": 1.0}): 0.2}
+    assert feasible(arm, goal, both, task="planar").answer == "unknown"
+    assert feasible(arm, goal, both, task="planar", at=[0.2, 0.7]).answer == "yes"
+
+
+def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
+    faults = hf.faults.Faults([hf.faults.sensor_bias(["joint1"], bias=0.25, onset=0.05)], seed=2)
+    wrapped = FaultWrapper(reacher, faults, joints=["joint0", "joint1"], record=tmp_path / "runs", observes={"joint1": ()})
+    data, true = wrapped.unwrapped.data, []
+    for episode in (3, 5):
+        wrapped.reset(seed=episode, options={"episode": episode})
+        for _ in range(50 if episode == 3 else 7):
+            wrapped.step(np.full(2, 0.1, dtype=np.float32))
+            true.append([data.time, *data.qpos[:2], *data.qfrc_actuator[:2]])
+    wrapped.close()
+    first, second = hf.faults.recorded(tmp_path / "runs")
+    assert [(e.episode, e.seed, e.outcome, e.feasible) for e in (first, second)] == [
+        (3, 3, "truncated", "unknown"),
+        (5, 5, "left", "unknown"),
+    ]
+    assert first.events == faults.draw(["joint0", "joint1"], episode=3)
+    assert first.id == first.events.id
+    log, expected = first.log(), np.array(true[:50])
+    assert log.t == pytest.approx(expected[:, 0], abs=1e-12)
+    # It begins with the step after 0.05 s, and is told at the end of that.
+    # It begins with the step after 0.05 s, and is told at the end of that.
+    sign = np.sign(first.events[0].parameters["bias"])
+    wrong = np.where(log.t[:, None] >= 0.08 - 1e-9, [0.0, 0.25 * sign], 0.0)
+    assert log.q == pytest.approx(expected[:, 1:3] + wrong, abs=1e-6)
+    assert log.tau == pytest.approx(expected[:, 3:], abs=1e-6)
+    assert np.isnan(log.q_ref).all()  # torque motors follow no reference
+    assert len(second.log().t) == 7
+    with np.load(first.file) as arrays:
+        assert arrays["reward"].shape == (50,)
+        assert arrays["action"] == pytest.approx(0.1)
+    (tmp_path / "runs" / "episodes.jsonl").write_text("{", encoding="utf-8")
+    with pytest.raises(InputError, match="line 1 of"):
+        hf.faults.recorded(tmp_path / "runs")
+    with pytest.raises(InputError, match=r"has no episodes\.jsonl"):
+        hf.faults.recorded(tmp_path)
+
+
+def test_in_an_environment_of_gymnasium_robotics():
+    """A lock holds, a motor without torque gives none, and the model is itself again; skipped where that is not installed."""
+    robotics = pytest.importorskip("gymnasium_robotics")
+    gymnasium.register_envs(robotics)
+    env = gymnasium.make("AdroitHandDoor-v1")
+    joints = ["ARTz", "WRJ1", "FFJ2"]
+    events = [FaultEvent("locked", "WRJ1", 0.1), FaultEvent("limp", "FFJ2", 0.1)]
+    wrapped = FaultWrapper(env, events, joints=joints)
+    model, data = env.unwrapped.model, env.unwrapped.data
+    before = [model.jnt_range.tobytes(), model.jnt_actfrcrange.tobytes()]
+    wrapped.reset(seed=1)
+    wrist, finger = (model.joint(name) for name in joints[1:])
+    places, rng = [], np.random.default_rng(0)
+    for _ in range(60):
+        wrapped.step(rng.uniform(-1, 1, env.action_space.shape).astype(np.float32))
+        if wrapped.fault["active"]:
+            places.append(data.qpos[wrist.qposadr[0]])
+            assert data.qfrc_actuator[finger.dofadr[0]] == 0.0
+    assert len(places) >= 45
+    assert np.ptp(places) < 13e-3  # a lock by limits is soft against motors as strong as these
+    wrapped.reset(seed=1)
+    assert [model.jnt_range.tobytes(), model.jnt_actfrcrange.tobytes()] == before
+    env.close()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -116,3 +119,38 @@ def test_a_bad_row_is_nan_alone(objectives, panda, rng):
     y.nansum().backward()
     assert y.isnan().tolist() == [False, True, False]
     assert x.grad.isnan().any(dim=1).tolist() == [False, True, False]
+
+
+def test_rows_that_a_kernel_on_a_gpu_marks_are_looked_at_on_the_processor(panda, rng, monkeypatch):
+    """The kernels here are those of the processor: what a GPU would be given, and what is done with what it gives back."""
+    from holdfast.frameworks import torch_rows
+
+    rho = hf.indices.relative_manipulability(panda)
+    function, q = rho.row_function(), inside(panda, rng, 40)
+    q[3, 1::2] = 0.0  # stretched out
+    q[5, 0] = np.nan
+    asked = []
+
+    def exchanged(kernel, rows):
+        asked.append(kernel)
+        found = kernel(*[x.numpy() for x in rows])
+        return [torch.from_numpy(np.array(out)) for out in (found if isinstance(found, tuple) else (found,))]
+
+    monkeypatch.setattr(torch_rows, "_exchanged", exchanged)
+    for what, expected in ((function.value, rho(q)), (function.slopes, rho.gradient(q))):
+        (found,) = torch_rows._on_gpu(function, what, (tensor(q).reshape(2, 20, 7),))
+        np.testing.assert_array_equal(found.numpy().reshape(expected.shape), expected)
+    assert [kernel.name for kernel in asked] == [k.name for k in function.kernels]
+    assert np.isnan(exchanged(asked[0], [tensor(q)])[0].numpy()[[3, 5]]).all(), "nothing to look at again"
+
+
+def test_the_notebook_learns_to_fold(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    file = Path(__file__).parents[2] / "examples/learn_elbow_angles.ipynb"
+    install, *cells = ["".join(c["source"]) for c in json.loads(file.read_text())["cells"] if c["cell_type"] == "code"]
+    assert install == "%pip install --quiet 'holdfast[torch]'"
+    made: dict[str, object] = {}
+    for cell in cells:
+        exec(cell.replace("STEPS, BATCH = 1500", "STEPS, BATCH = 300"), made)
+    assert np.mean(made["typical"]) < np.mean(made["left"]) <= np.mean(made["best"])

@@ -31,15 +31,15 @@ def named(classes):
 RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance Execution "
-        "FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory "
-        "Workspace",
+        "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
+        "Trajectory Workspace",
         "bench": "FailActive",
-        "ceilings": "Ceiling CeilingSearch CeilingTable",
+        "ceilings": "Ceiling CeilingSearch CeilingTable SingularValueCeiling",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
-        "designs": "Book Orders Record RecordCheck Synthesis",
+        "designs": "Book EvolvedDesign Orders Record RecordCheck Synthesis",
         "engine": "Merged Study Verification",
-        "diagnosis": "Bounds Diagnosis",
+        "diagnosis": "Bounds Diagnosis ExportedMonitor Finding Observability Probe",
         "faults": "FaultBatch",
         "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "WaypointCheck WhatIsLeft",
@@ -64,13 +64,14 @@ VALUES = named(
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "diagnosis": "Verdict",
-        "faults": "Feasibility",
+        "faults": "Episode Feasibility",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
         "frameworks": "RowFunction",
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
         "probability": "Difference Distribution Interval",
+        "reaction": "Action",
         "recovery": "Leg RestOfPath RowsGivenUp TimedMotion Verdict Verification",
         "shapes": "Piece",
         "simulation": "Path",
@@ -83,7 +84,7 @@ THAWED = {"probability.Distribution"}  # values that are not frozen yet
 # Arms, tasks, settings: what an analysis is asked with.
 INPUTS = named(
     {
-        "": "Arm Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
+        "": "Arm Body Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "arm": "Chain",
         "bench": "Case",
         "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",

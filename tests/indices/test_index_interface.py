@@ -88,6 +88,9 @@ def test_pairs_have_failures_and_no_joints(by_pairs, rng):
         np.testing.assert_allclose((by_pairs.by_joint(q) ** 2).sum(axis=1), 1.0, rtol=1e-9)
         np.testing.assert_allclose(by_pairs.bound, np.sqrt(1 / 8))  # less than the root of their mean, 1/6
         assert (by_pairs(q) <= by_pairs.bound).all()
+    elif by_pairs.name == "ceiling fraction":
+        assert by_pairs.bound == pytest.approx(1)
+        assert (by_pairs(q) <= by_pairs.bound).all()
     else:
         assert by_pairs.bound is None
     with pytest.raises(TaskError, match="several joints fail together here; ask for worst_failure"):
@@ -111,7 +114,7 @@ def test_attributes(mixed7):
         assert index.source
         if "Abdi 2012" in INDICES[name].properties:
             assert index.better == ("smaller" if name == "condition-number" else "larger")
-            assert (index.bound is None) == (name != "relative-manipulability")
+            assert (index.bound is None) == (name not in ("relative-manipulability", "ceiling-fraction"))
             assert "Abdi et al. 2012, eq." in index.source
         assert (index.arm, index.task.name) == (mixed7, "position")
         assert index.describe() == f"worst-case {index.name} over any one joint, task position (3 rows)"

@@ -12,9 +12,11 @@ from fake_driver import Array, FakeDriver
 
 import holdfast as hf
 from holdfast import arms, control, indices, kernels
+from holdfast.engine import Study, Threads
 from holdfast.errors import InputError, KernelError
 from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu import driver, launch, ptx
+from holdfast.studies import read as read_study
 
 
 @pytest.fixture
@@ -239,8 +241,18 @@ def test_a_machine_without_gpu_is_a_sentence(missing, monkeypatch):
     assert kernels.default_backend() in ("llvm", "casadi")
 
 
-def test_the_backend_alone_brings_everything_to_the_device(gpu):
-    """Indices, laws, inverse kinematics, optimisation, closed loops and an assessment: the same bits as on the processor."""
+STUDY = """
+seed: 7
+poses: 8
+chunk: 4
+arms: [planar-3r]
+assess: {indices: [manipulability], tasks: [planar], clearance: false}
+"""
+
+
+def test_the_backend_alone_brings_everything_to_the_device(gpu, tmp_path):
+    """Indices, laws, inverse kinematics, optimisation, closed loops, an assessment, a study: bits as on the processor."""
+    (tmp_path / "study.yaml").write_text(STUDY)
 
     def outcome():
         arm = arms.load("planar-3r")
@@ -252,7 +264,20 @@ def test_the_backend_alone_brings_everything_to_the_device(gpu):
         runs = hf.simulate(law, q, poses[::-1], locked=[1], time_limit=5)
         region = hf.Region.joints([-2, -2, -2], [2, 2, 2])
         run = hf.assess(arm, region, rho, poses=8, seed=1)
-        return [rho(q), rho.gradient(q), law.velocity(q, np.ones(2)), found.q, best.q, runs.q_final, *run.columns.values()]
+        asked = read_study(tmp_path / "study.yaml")
+        study = Study.create(tmp_path / kernels.default_backend(), asked.name, asked.seed, cells=asked.cells, source=asked.text)
+        assert study.run(asked.cells, Threads(1)) == {}
+        of_study = [study.store(0).read(k, ("index",))["index"] for k in range(2)]
+        return [
+            rho(q),
+            rho.gradient(q),
+            law.velocity(q, np.ones(2)),
+            found.q,
+            best.q,
+            runs.q_final,
+            *run.columns.values(),
+            *of_study,
+        ]
 
     expected = outcome()
     kernels.set_backend("cuda")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +15,11 @@ from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules
 from holdfast.recovery import Ending, search
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
-from holdfast.recovery.proofs.flood import _Points, disconnected, holds_configuration, may_meet
+from holdfast.recovery.proofs.flood import _floods, _Points, disconnected, holds_configuration, may_meet
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.space import Space
 
+CELL = Path(__file__).parents[2] / "examples" / "cells" / "fail-active.yaml"
 THICK, BALL = 0.05, 0.2  # m
 COUNT = 180  # of the grid of the flood, each way
 
@@ -123,7 +125,7 @@ def test_the_verdict_says_that_it_is_proved(ring, kind, monkeypatch):
     if kind == "pose":
         asked = {"goal": pose, "task": "planar"}
     elif kind == "path":
-        monkeypatch.setattr(search, "find_route", lambda *_: None)
+        monkeypatch.setattr(search, "find_route", lambda *_, **__: None)
         onwards = arm.forward_kinematics(np.add(there, [0.1, 0, 0]))
         asked = {"goal": None, "task": "planar", "path": hf.paths.line(pose[:3, 3], onwards[:3, 3])}
     found = hf.recover(arm, ["joint2"], start, clearance=shape, samples=0, tries=1, **asked)
@@ -154,6 +156,48 @@ def test_rows_kept_close_ways_too(rng):
         assert proof is not None or flooded(off <= 0.07, False, at, tuple(goal), True)
         proved += proof is not None
     assert 0 < proved < 8
+
+
+@pytest.mark.parametrize("asked", ["pose", "configuration"])
+def test_a_gripper_that_cannot_get_past_the_forearm_keeps_the_last_joint_where_it_is(asked, rng):
+    """An open one, with joint 6 locked near its end; the exact sign of many configurations in between says the same."""
+    panda = hf.arms.load("panda")
+    clearance = hf.Clearance.by_default(panda, hf.Cell.load(CELL))
+    start, goal = np.array([[0.3, 0.2, 0.1, -1.8, 0.0, 0.05, 1.0], [-0.3, 0.4, -0.5, -1.2, 0.5, 0.05, -2.2]])
+    between = rng.uniform(panda.lower, panda.upper, (500, 7))
+    between[:, 5], between[:, 6] = 0.05, rng.uniform(-1.2, 0.0, 500)
+    assert clearance.sign(np.stack([start, goal])).all()
+    assert not clearance.sign(between).any()
+    aim = {"goal": goal} if asked == "configuration" else {"goal": panda.forward_kinematics(goal), "task": "pose"}
+    found = hf.recover(panda, ["panda_joint6"], start, clearance=clearance, samples=0, tolerance=(1e-3, 0.01), **aim)
+    assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "disconnected"), found.verdict
+    assert "what panda_joint7 can get to" in found.proof
+    assert found.proved_within
+    there = goal.copy()
+    there[6] = 1.1
+    assert hf.recover(panda, ["panda_joint6"], start, goal=there, clearance=clearance, samples=0).ok
+
+
+@pytest.mark.parametrize("limit", [np.inf, 2.8], ids=["round", "limited"])
+def test_a_box_that_a_flood_misses_holds_nothing_that_it_got_to(limit, rng):
+    arm = three_links(limit)
+    space = Space(arm, np.ones(3, dtype=bool), None, 0.0, np.zeros((1, 3)))
+    edge, seen = min(limit, np.pi), np.clip(rng.uniform(-0.8, 0.8, (20, 3)).cumsum(axis=0), -2.8, 2.8)
+
+    def blocked(q, half):  # but about a way
+        return np.abs(q[:, None, [0, 2]] - seen[:, [0, 2]]).max(axis=2).min(axis=1) > 0.5
+
+    flood = next(f for f in _floods(space, seen[0], np.array([0, 2]), blocked) if f.count == 32)
+    assert 20 < len(flood.cells) < 1000
+    middle, half = rng.uniform(-edge, edge, (400, 3)), rng.uniform(0, 0.4, (400, 3))
+    missed = flood.misses(middle, half)
+    inside = (middle[:, None] + half[:, None] * rng.uniform(-1, 1, (1, 100, 3)))[..., [0, 2]]
+    if np.isinf(limit):
+        inside = np.arctan2(np.sin(inside), np.cos(inside))
+    held = np.abs(inside[..., None, :] - flood.middle[:, [0, 2]]).max(axis=3) <= edge / 32
+    held = held.any(axis=(1, 2))
+    assert not (missed & held).any()
+    assert (missed | held).mean() > 0.8
 
 
 # ---- bounds ----------------------------------------------------------------------------------------------------------

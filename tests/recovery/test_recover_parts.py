@@ -144,8 +144,8 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     assert any("NOT KEPT" in line for line in replay.describe())
 
 
-@pytest.mark.parametrize(("tries", "made"), [(0, 0), (1, 1), (4, 1), (9, 2)])
-def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, tries, made):
+@pytest.mark.parametrize(("tries", "vain", "made"), [(0, 1, 0), (1, 1, 1), (4, 1, 1), (9, 2, 2), (3, None, 3)])
+def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, tries, vain, made):
     """A sphere behind which the only free joint, whose limits close the other way round, cannot get."""
     rounds, connect = [], routes._connect
     monkeypatch.setattr(routes, "_connect", lambda *given: rounds.append(connect(*given)) or rounds[-1])
@@ -154,5 +154,5 @@ def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, t
     ends = np.array([[0.9, 0.3, 0.4], [-0.9, 0.3, 0.4]])
     space = Space(arm, np.array([True, False, False]), Clearance(arm, cell=cell, itself=False), 0.0, ends)
     metric = Metric.of(arm, "travel", None, space.free)
-    assert routes.find_route(space, metric, ends[0], ends[1:], tries, np.random.default_rng(0)) is None
+    assert routes.find_route(space, metric, ends[0], ends[1:], tries, np.random.default_rng(0), vain=vain) is None
     assert rounds == [None] * made

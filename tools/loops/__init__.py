@@ -1,4 +1,13 @@
 """The short loops of README and documentation: ``python -m tools.loops NAME`` writes ``docs/_static/loops/NAME.webp``."""
 
 # Each is a module of this name; the value is the seed of what it draws at random, if anything.
-LOOPS = {"studio": None, "free-swing": None, "two-laws": None, "self-motion": 0, "basins": 0, "fail-active": None, "tray": None}
+LOOPS = {
+    "studio": None,
+    "free-swing": None,
+    "two-laws": None,
+    "self-motion": 0,
+    "basins": 0,
+    "fail-active": None,
+    "tray": None,
+    "chain": None,
+}

@@ -1,9 +1,10 @@
-"""A motion in MuJoCo on which a joint locks, and two ways in which it ends, side by side."""
+"""A motion in MuJoCo on which a joint fails, and two ways in which it ends, side by side."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -35,14 +36,14 @@ class Side:
     """What one half of the picture shows.
 
     Attributes:
-        runs: One after the other.
+        runs: One after the other, of :class:`holdfast.Execution` or :class:`holdfast.FaultRun`.
         name: What is said above it from the lock on.
         state: What is said below that, of a row of a run.
     """
 
-    runs: Sequence[hf.Execution]
+    runs: Sequence[Any]
     name: str
-    state: Callable[[hf.Execution, int], str]
+    state: Callable[[Any, int], str]
 
     @property
     def duration(self) -> float:
@@ -67,10 +68,11 @@ class Stage:
         view: From where it is seen.
         limits: Left, right, bottom and top of what is seen, m.
         cell: The objects; the first lies under all others.
-        joint: The joint that locks, by name.
+        joint: The joint that fails, by name.
         carried: What the tool carries, triangles in the frame of the tool.
         goal: (3,) where the tool point should get to, m.
         label: Right end of the words that name the joint, as fractions of the half.
+        fault: What these words say of it.
     """
 
     view: View
@@ -80,12 +82,19 @@ class Stage:
     carried: Triangles
     goal: Array
     label: tuple[float, float] = (0.98, 0.72)
+    fault: str = "locked"
 
-    def shots(self, sides: Sequence[Side], said: Callable[[float], str]) -> Iterator[Shot]:
-        """Both sides at the same instants; a pause when the joint locks, and one at the end."""
+    def shots(self, sides: Sequence[Side], said: Callable[[float], str], *, fails: float | None = None) -> Iterator[Shot]:
+        """Both sides at the same instants; a pause when the joint fails, and one at the end.
+
+        Args:
+            sides: The halves.
+            said: Below, at each time, s.
+            fails: When the joint fails, s; of an execution that locks it then if not given.
+        """
         arm = sides[0].runs[0].arm
         k = arm.joint_index(self.joint)
-        lock = float(sides[0].runs[0].lock_time[k])
+        lock = float(sides[0].runs[0].lock_time[k]) if fails is None else fails
         bodies, around = arm_bodies(arm), cell_bodies(self.cell)
         end = max(side.duration for side in sides)
         instants = np.unique(np.r_[np.arange(0, end, 1 / FRAMES), lock, end])
@@ -109,7 +118,7 @@ class Stage:
                     line = {"arrowstyle": "-", "color": ORANGE, "linewidth": 2, "relpos": (0.2, 0.0)}
                     options = {"xytext": self.label, "textcoords": "axes fraction", "ha": "right", "arrowprops": line}
                     words = {"fontsize": 16, "color": ORANGE, "weight": "bold"}
-                    axes.annotate(f"joint {k + 1} locked", self.view.of(shown.mean(axis=(0, 1))), **options, **words)
+                    axes.annotate(f"joint {k + 1} {self.fault}", self.view.of(shown.mean(axis=(0, 1))), **options, **words)
                 axes.set(xlim=self.limits[:2], ylim=self.limits[2:], aspect="equal")
                 axes.axis("off")
                 name = side.name if failed else "healthy"

@@ -6,3 +6,4 @@ from holdfast.arms.catalogue import command_words as command_words
 from holdfast.arms.catalogue import resolve as resolve
 from holdfast.arms.dh_rows import DHTable as DHTable
 from holdfast.arms.dh_rows import dh_table as dh_table
+from holdfast.arms.urdf_writing import urdf_text as urdf_text

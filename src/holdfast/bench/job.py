@@ -7,7 +7,7 @@ import time
 import zlib
 from dataclasses import dataclass
 from hashlib import sha256
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
 from holdfast.recovery.recovery import Answer
 from holdfast.studies.jobs.process import PlannedJob
+
+if TYPE_CHECKING:
+    from holdfast.clearance.shape import Shape
 
 Rows = dict[str, NDArray[Any]]
 VERDICTS: tuple[Answer, ...] = ("solved", "proved infeasible", "argued infeasible", "undecided")
@@ -39,12 +42,20 @@ class FailActiveJob(PlannedJob[Draw]):
 
     Attributes:
         plan: Arm, cell, task, method, seconds.
+        shape: Of the arm, which the capsules in the plan cover; None where they are the shape.
     """
+
+    shape: Shape | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, FailActiveJob) and other.plan == self.plan  # which has the digest of the shape
+
+    __hash__ = PlannedJob.__hash__
 
     def compiled(self) -> Draw:
         """What draws the cases, with what must be kept clear."""
         arm = from_dict(self.plan["arm"])
-        return Draw(arm, from_stored(arm, self.plan))
+        return Draw(arm, from_stored(arm, self.plan, self.shape))
 
     def case(self, seed: int, row: int) -> Case:
         """A case by its number: the same for every planner, whatever the chunks are."""

@@ -226,6 +226,7 @@ def fail_active(
 
 def _cell(arm: Arm, around: Cell | None, task: str, method: str, cases: int, seconds: float) -> StudyCell:
     clearance = chosen_clearance(arm, None, around)
+    shape = None if clearance is None else clearance.capsules.shape
     plan = {
         "kind": NAME,
         "fingerprint": arm.fingerprint,
@@ -233,12 +234,13 @@ def _cell(arm: Arm, around: Cell | None, task: str, method: str, cases: int, sec
         "task": task,
         "method": method,
         "seconds": seconds,
-        **({} if clearance is None else stored(clearance)),  # the arm's own shape too
+        **({} if clearance is None else stored(clearance)),
+        **({} if shape is None else {"shape": shape.digest}),
     }
     labels = {"job": NAME, "arm": arm.name, "task": task, "method": method, "around": "" if around is None else around.name}
     rows = cases if task.startswith("reach") else max(cases // FEWER, 1)
     name = "-".join([task, method, *(["cell"] if around is not None else [])])
-    return StudyCell(name, FailActiveJob(plan), plan, rows=rows, chunk=min(rows, 5), labels=labels)
+    return StudyCell(name, FailActiveJob(plan, shape), plan, rows=rows, chunk=min(rows, 5), labels=labels)
 
 
 def _write_cases(study: Study, cells: Sequence[StudyCell], seed: int) -> None:

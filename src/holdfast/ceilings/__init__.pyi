@@ -3,6 +3,9 @@ from holdfast.ceilings.ceiling import CeilingTable as CeilingTable
 from holdfast.ceilings.ceiling import look_up as look_up
 from holdfast.ceilings.ceiling import of_index as of_index
 from holdfast.ceilings.ceiling import table as table
+from holdfast.ceilings.least_singular_values import SingularValueCeiling as SingularValueCeiling
+from holdfast.ceilings.least_singular_values import singular_value as singular_value
+from holdfast.ceilings.least_singular_values import singular_value_of_index as singular_value_of_index
 from holdfast.ceilings.minor_programmes import bounds_by_arrangement as bounds_by_arrangement
 from holdfast.ceilings.searching import CeilingSearch as CeilingSearch
 from holdfast.ceilings.searching import search as search

@@ -17,7 +17,8 @@ from holdfast.ceilings.closed_forms import CLOSED_FORMS
 from holdfast.ceilings.frames import known
 from holdfast.ceilings.minor_programmes import bounds_by_arrangement
 from holdfast.ceilings.minors import lack_of_orthonormality, worst_case
-from holdfast.ceilings.theorems import THEOREMS, Bound, proven
+from holdfast.ceilings.pair_kernels import certificates
+from holdfast.ceilings.theorems import ARRANGEMENTS, PAIRS, THEOREMS, Bound, proven
 from holdfast.errors import InputError
 from holdfast.result import Result
 from holdfast.words import percent
@@ -139,15 +140,20 @@ class Ceiling(Result):
         """Itself, after the stored null space was measured anew by singular values of its rows, and held against the bound.
 
         Args:
-            proof: Also replay the certificates of a bound by R4 in ball arithmetic: seconds, minutes for nine joints.
+            proof: Also replay the certificates that the bound rests on, of R3 in integers and of R4 in ball arithmetic:
+                seconds, minutes for nine joints by R4.
 
         Raises:
             InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong; or the
                 certificates prove less than what is said.
-            ImportError: The proof needs python-flint (``pip install "holdfast[certify]"``).
+            ValueError: A certificate proves nothing.
+            ImportError: The proof by R4 needs python-flint (``pip install "holdfast[certify]"``).
         """
-        if proof and self.bound_by == "R4" and (least := max(bounds_by_arrangement(self.n))) > self.bound:
-            raise InputError(f"the certificates prove {least:.12g} and not {self.bound:.12g}")
+        for theorem, n, p in proven(self.n, self.m, self.k).replayed if proof else ():
+            said = ARRANGEMENTS[n] if theorem == "R4" else PAIRS[n, n - p]
+            least = max(bounds_by_arrangement(n)) if theorem == "R4" else certificates()[n, n - p].proven()
+            if least > said:
+                raise InputError(f"the certificates of {theorem} for {n} joints prove {least:.12g} and not {said:.12g}")
         if self.null_space is None:
             return self
         lack, value = lack_of_orthonormality(self.null_space), worst_case(self.null_space, self.k)
@@ -196,10 +202,14 @@ def of_index(index: OfFailures) -> Ceiling | None:
     Returns:
         Ceiling, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
     """
+    k = at_once(index)
+    return None if k is None else look_up(n=index.arm.n, m=index.task.m, k=k)
+
+
+def at_once(index: OfFailures) -> int | None:
+    """The largest number of joints of which every set is among the failures; None if the largest sets are not all there."""
     k = max(map(len, index.failures))
-    if sum(len(s) == k for s in index.failures) < comb(index.arm.n, k) or index.arm.n > _MOST:
-        return None
-    return look_up(n=index.arm.n, m=index.task.m, k=k)
+    return None if sum(len(s) == k for s in index.failures) < comb(index.arm.n, k) or index.arm.n > _MOST else k
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -18,11 +18,26 @@ THEOREMS = {
     "CB": "the mean over all sets of joints (Cauchy and Binet)",
     "R1": "one lock after the other",
     "R2": "a positive definite kernel of degree four",
+    "R3": "a kernel over pairs of joints, its certificate replayed in integers",
     "R4": "a geometric program for each class of pseudoline arrangements, certificates replayed in ball arithmetic",
 }
 
 # Upper bounds by :mod:`holdfast.ceilings.arrangements`, replayed in balls and rounded up: n -> c(n, 3, 3).
 ARRANGEMENTS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
+
+# What the certificates of :mod:`holdfast.ceilings.pair_kernels` prove: (n, m) -> c(n, n - m, 2).
+PAIRS = {
+    (5, 2): 0.515989,
+    (6, 2): 0.610416,
+    (7, 2): 0.673477,
+    (8, 2): 0.718915,
+    (9, 2): 0.753264,
+    (10, 2): 0.780166,
+    (7, 3): 0.521591,
+    (8, 3): 0.583259,
+    (9, 3): 0.632588,
+    (10, 3): 0.671999,
+}
 
 
 class Bound(NamedTuple):
@@ -31,10 +46,12 @@ class Bound(NamedTuple):
     Attributes:
         value: Of the relative manipulability.
         by: Theorems it rests on, such as ``"R1 with R2"``.
+        replayed: The certificates it rests on, each by its theorem, joints and redundancy.
     """
 
     value: float
     by: str
+    replayed: tuple[tuple[str, int, int], ...] = ()
 
 
 @cache
@@ -52,7 +69,7 @@ def proven(n: int, m: int, k: int) -> Bound:
     found = [*_of_theorems(n, p, k), *_step_by_step(n, p, k)]
     if k == p:
         # T3: the minors of all p rows of N are those of the other m rows of the orthonormal rows of J.
-        found += [Bound(value, _from("T3", by)) for value, by in [*_of_theorems(n, m, m), *_step_by_step(n, m, m)]]
+        found += [b._replace(by=_from("T3", b.by)) for b in [*_of_theorems(n, m, m), *_step_by_step(n, m, m)]]
     least = min(bound.value for bound in found)
     return next(bound for bound in found if bound.value <= least * (1 + 1e-12))  # of equal ones the first, the simplest
 
@@ -68,11 +85,13 @@ def _of_theorems(n: int, p: int, k: int) -> list[Bound]:
         found.append(Bound(2 / n * sin(pi / n), "T2"))
     elif k == 2:
         found.append(Bound(sqrt(p * p * (p - 1) / ((p + 2) * n * m)), "R2"))
+    if k == 2 and (n, m) in PAIRS:
+        found.append(Bound(PAIRS[n, m], "R3", (("R3", n, p),)))
     if p == k == 3:
         if n == 6:
             found.append(Bound(sqrt((5 - sqrt(5)) / 100), "T5"))
         elif n in ARRANGEMENTS:
-            found.append(Bound(ARRANGEMENTS[n], "R4"))
+            found.append(Bound(ARRANGEMENTS[n], "R4", (("R4", n, 3),)))
     return found
 
 
@@ -81,7 +100,7 @@ def _step_by_step(n: int, p: int, k: int) -> list[Bound]:
     m, found = n - p, []
     for j in range(1, k):
         first, then = proven(n, m, j), proven(n - j, m, k - j)
-        found.append(Bound(first.value * then.value, _from("R1", first.by, then.by)))
+        found.append(Bound(first.value * then.value, _from("R1", first.by, then.by), first.replayed + then.replayed))
     return found
 
 

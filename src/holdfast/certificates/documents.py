@@ -17,7 +17,7 @@ from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
-from holdfast.certificates.joint_boxes.halving import Halving
+from holdfast.certificates.joint_boxes.jobs import Bisection
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.target_boxes.jobs import Found
 from holdfast.certificates.taylor import UNIT, Chain
@@ -33,7 +33,7 @@ def reach(claim: ReachClaim, found: Found, undecided: Fraction) -> Document:
     """The certificate of a search, of whose box a part is undecided."""
     return _signed(
         _common("reach", claim, found.seconds, found.nodes)
-        | _lock(claim)
+        | _asked(claim)
         | {
             "unit": UNIT.hex(),
             "tree": _packed(found.tree),
@@ -44,9 +44,10 @@ def reach(claim: ReachClaim, found: Found, undecided: Fraction) -> Document:
     )
 
 
-def said(claim: ReachClaim) -> str:
+def said(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> str:
     """The sentence of a claim, which has all of its numbers and the digest of the arm."""
-    made = _common("reach", claim, 0.0, 0) | _lock(claim)
+    kinds = {ReachClaim: "reach", OutOfReachClaim: "refutation", PathClaim: "path"}
+    made = _common(claim.kind if isinstance(claim, BoundClaim) else kinds[type(claim)], claim, 0.0, 0) | _asked(claim)
     return verifier.sentence(made | {"arm_digest": verifier.digest(made["arm"])})
 
 
@@ -82,7 +83,7 @@ def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> D
     ]
     return _signed(
         _common("refutation", claim, seconds, found.nodes)
-        | _lock(claim)
+        | _asked(claim)
         | {
             "tree": _packed(found.tree),
             "lemmas": lemmas,
@@ -92,20 +93,10 @@ def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> D
     )
 
 
-def bound(claim: BoundClaim, tree: Halving, extreme: NDArray[np.float64], *, seconds: float) -> Document:
+def bound(claim: BoundClaim, found: Bisection, extreme: NDArray[np.float64], *, seconds: float) -> Document:
     """The certificate of a ceiling or a floor, with the configuration that was found to come nearest to it."""
-    common = _common(claim.kind, claim, seconds, tree.tested)
-    return _signed(
-        common
-        | {
-            "joint_box": _hexes(claim.joint_box),
-            "threshold": _hexes(claim.threshold),
-            "locks": list(claim.locks),
-            "tree": _packed(tree.in_order()),
-            "found": _hexes(extreme),
-            "volumes": _volumes(tree.undecided),
-        }
-    )
+    kept = {"tree": _packed(found.tree), "found": _hexes(extreme), "volumes": _volumes(found.undecided)}
+    return _signed(_common(claim.kind, claim, seconds, found.nodes) | _asked(claim) | kept)
 
 
 def structural_zero(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
@@ -119,20 +110,15 @@ def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
     locks = []
     for part in parts:
         numbers = [x for slab in part.slabs for x in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
-        centres = np.array([q for slab in part.slabs for q in slab.centres]).reshape(-1, claim.arm.n)
-        rows = np.round(centres / forms.UNIT).astype("<i4")
-        rows[:, [part.joint, *part.followers]] = 0
+        rows = np.array([row for slab in part.slabs for row in slab.centres], "<i4")
         kept = {"joint": part.joint, "followers": list(part.followers), "proved": verifier.paths.text(part.proved)}
         locks.append(kept | {"cells": _packed(np.array(numbers, "<i8").tobytes()), "centres": _packed(rows.tobytes())})
     least = min(part.proved for part in parts)
     volumes = {"proved": least, "refuted": Fraction(0), "undecided": 1 - least}
     return _signed(
         _common("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
+        | _asked(claim)
         | {
-            "knots": _hexes(claim.knots),
-            "tube": _hexes(claim.tube),
-            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
-            "during": list(claim.during),
             "unit": forms.UNIT.hex(),
             "locks": locks,
             "volumes": {key: verifier.paths.text(part) for key, part in volumes.items()},
@@ -174,7 +160,18 @@ def _common(
     return made | {"target": {"axes": _axes(claim), "box": _hexes(claim.box), "orientation": _turned(claim)}}
 
 
-def _lock(claim: ReachClaim | OutOfReachClaim) -> Document:
+def _asked(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> Document:
+    """What a claim is about, besides arm, task and target."""
+    if isinstance(claim, BoundClaim):
+        return {"joint_box": _hexes(claim.joint_box), "threshold": _hexes(claim.threshold), "locks": list(claim.locks)}
+    if isinstance(claim, PathClaim):
+        return {
+            "knots": _hexes(claim.knots),
+            "tube": _hexes(claim.tube),
+            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
+            "during": list(claim.during),
+            "locks": [{"joint": joint} for joint in claim.locks],
+        }
     angle = None if claim.angle is None else _hexes(claim.angle)
     return {"locked": claim.locked, "angle": angle, "limits": _hexes(claim.limits)}
 

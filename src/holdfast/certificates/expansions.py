@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -33,12 +33,14 @@ class Turns:
     Attributes:
         off: (3, 3) from the target to the tool.
         weights: (3, 3) of each row.
+        kept: (3, 3) the same of the cosine, up to a constant.
         cosine: Of the angle.
         axes: About which the target's angles turn it.
     """
 
     off: SX
     weights: list[SX]
+    kept: SX
     cosine: SX
     axes: list[SX]
 
@@ -121,9 +123,10 @@ class Expansion:
         off = chain.rotation @ wanted.T
         if self.task == "pointing":
             toward = wanted[:, 2]
-            return Turns(off, [wanted[:, k] @ toward.T for k in range(2)], ca.dot(off @ toward, toward), axes)
+            across = [wanted[:, k] @ toward.T for k in range(2)]
+            return Turns(off, across, toward @ toward.T, ca.dot(off @ toward, toward), axes)
         skew = [ca.skew(ca.SX.eye(3)[:, k]) / 2 for k in range(3)]
-        return Turns(off, skew[2:] if self.task == "planar-pose" else skew, (ca.trace(off) - 1) / 2, axes)
+        return Turns(off, skew[2:] if self.task == "planar-pose" else skew, ca.SX.eye(3) / 2, (ca.trace(off) - 1) / 2, axes)
 
     def _off(self, chain: kinematics.Chain, target: SX) -> tuple[SX, SX]:
         """Of the point (2 or 3,) m; of the rotation 2 sin(angle / 2) about the axes that count."""
@@ -133,14 +136,17 @@ class Expansion:
         turns = self._turns(chain, target)
         return point, turns.values / ca.sqrt(ca.fmax((1 + turns.cosine) / 2, 1e-12))
 
-    def expanded(self, q: SX, target: SX) -> tuple[SX, SX, list[SX]]:
-        """Error (m,), slopes (m, n + t) and Hessians of its rows, by joints and angles of the target."""
+    def expanded(self, q: SX, target: SX, whole: bool = False) -> tuple[SX, SX, list[SX]]:
+        """Error (m,), slopes (m, n + t) and Hessians of its rows, by joints and angles of the target.
+
+        ``whole``: with one more row where rotations count, the cosine of the angle less 1.
+        """
         n, t, linear = self.arm.n, self.turning, self.linear
         chain, jacobian = self._jacobian(q)
         columns, axes = jacobian[:3, :], jacobian[3:, :]
         error = chain.position[:linear] - target[:linear]
         slopes = ca.horzcat(columns[:linear, :], ca.SX(linear, t))
-        hessians = [ca.SX(n + t, n + t) for _ in range(self.m)]
+        hessians = [ca.SX(n + t, n + t) for _ in range(self.m + (whole and self.rotated))]
         for j in range(n):
             for k in range(j, n):  # the second derivative by joint j and a later k is z_j x J_k
                 second = ca.cross(axes[:, j], columns[:, k])
@@ -149,14 +155,18 @@ class Expansion:
         if self.rotated:
             # Turning the target turns what is left from the right; all axes of R(q) R', from left to right.
             left = self._turns(chain, target)
+            far = 10 * (left.cosine < _STRAIGHT)
+            if whole:
+                less = ca.vertcat(ca.SX(self.m - linear, 1), 1 if self.task == "pointing" else 1.5)
+                left, far = replace(left, weights=[*left.weights, left.kept]), -less
             turns = ca.horzcat(axes, *[-(left.off @ axis) for axis in left.axes])
-            error = ca.vertcat(error, left.values + 10 * (left.cosine < _STRAIGHT))
+            error = ca.vertcat(error, left.values + far)
             slopes = ca.vertcat(slopes, left.slopes(left.off) @ turns)
             for k in range(n + t):
                 by_k = left.slopes(ca.skew(turns[:, k]) @ left.off)
                 for j in range(k + 1):
                     second = by_k @ turns[:, j]
-                    for row in range(self.m - linear):
+                    for row in range(len(left.weights)):
                         hessians[linear + row][j, k] = hessians[linear + row][k, j] = second[row]
         return error, slopes, hessians
 
@@ -186,6 +196,14 @@ class Expansion:
         by_pair = ca.vertcat(*[ca.horzcat(*[form[a, b] for a, b in self.pairs]) for form in forms])
         out = [error, ca.fabs(inverse), ca.fabs(follow), by_pair, ca.fmax(ca.fabs(q), held) * self.slides.astype(float)]
         return Kernel("Taylor form of a reach", [q, target, free, locked, held], [ca.densify(x) for x in out])
+
+    @cached_property
+    @recalled
+    def whole(self) -> Kernel:
+        """Joints and target -> rows with that of the angle, their slopes and their Hessians, one after the other."""
+        q, target, _ = self._inputs
+        error, slopes, hessians = self.expanded(q, target, whole=True)
+        return Kernel("rows of a task", [q, target], [ca.densify(x) for x in (error, slopes, *hessians)])
 
     # ---- bounds ------------------------------------------------------------------------------------------------
 

@@ -11,13 +11,13 @@ import numpy as np
 from holdfast.arguments import checked
 from holdfast.certificates import documents, structure
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.crew import Effort, Stop
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, bounded
 from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
-from holdfast.certificates.target_boxes.crew import Crew, Stop
-from holdfast.certificates.target_boxes.jobs import Found
+from holdfast.certificates.target_boxes.jobs import Found, Job
 from holdfast.certificates.tool_paths import proof as motions
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.proof import PathProof
@@ -85,10 +85,9 @@ def certify(
         time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
             one does not need the others get. Without it the same seed gives the same certificate.
         seed: Of all random draws.
-        workers: Processes, of claims that something is reached: each takes a part, or a box of one that takes very many cells.
-            What is found is the same.
-        store: Folder that remembers what is done of such a claim, made if need be: the same call resumes a search that was
-            stopped or killed, and ends with the same certificate. None: nothing is remembered.
+        workers: Processes: each takes a part, or a piece of one that takes very many cells. What is found is the same.
+        store: Folder that remembers what is done, made if need be: the same call resumes a search that was stopped or killed,
+            and ends with the same certificate. None: nothing is remembered.
         state: Called with a :class:`holdfast.certificates.SearchState`: what is proved, undecided and open.
         progress: Called with what is decided and all, in ten thousandths of the parts' volumes.
         stop: Asked now and then; once it says True, the rest stays undecided.
@@ -102,8 +101,7 @@ def certify(
         of certificates.
 
     Raises:
-        InputError: A number out of range, a box that would take more than 2^24 cells, or workers or a store for a claim of
-            another kind.
+        InputError: A number out of range, or a box that would take more than 2^24 cells.
         StoreError: The folder holds another search or something else, or cannot be written.
     """
     if halvings is None:
@@ -123,28 +121,25 @@ def certify(
         if state is not None:
             state(now)
 
-    if not isinstance(claim, ReachClaim | TolerantClaim):
-        if workers != 1 or store is not None:
-            raise InputError("workers and store are for claims that something is reached; leave them out")
-        if isinstance(claim, OutOfReachClaim):
-            return refuted(claim, halvings, seed, end, stop, tell)
-        if isinstance(claim, PathClaim):
-            return motions.proved(claim, halvings, end, stop, tell)
-        if isinstance(claim, StructuralZeroClaim):
-            return structure.proved(claim)
-        if not isinstance(claim, BoundClaim):
-            raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
-        return bounded(claim, halvings, seed, end, stop, tell)
     if workers < 1:
         raise InputError(f"workers is {workers}; it must be 1 or more")
+    if isinstance(claim, StructuralZeroClaim):
+        return structure.proved(claim)
+    if not isinstance(claim, ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | PathClaim):
+        raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
+    asked = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
+    plan = {"kind": "certify", "claims": [documents.said(one) for one in asked], "halvings": halvings, "seed": seed}
+    memory = None if store is None else Memory(store, plan)
+    effort = Effort(end=end, stop=stop, tell=tell, workers=workers, memory=memory)
+    if isinstance(claim, OutOfReachClaim):
+        return refuted(claim, halvings, seed, effort)
+    if isinstance(claim, PathClaim):
+        return motions.proved(claim, halvings, effort)
+    if isinstance(claim, BoundClaim):
+        return bounded(claim, halvings, seed, effort)
     parts = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
-    plan = {"kind": "certify", "claims": [documents.said(one) for one in parts], "halvings": halvings, "seed": seed}
-    crew = Crew(parts, halvings, seed, memory=None if store is None else Memory(store, plan), tell=tell)
-    if workers == 1:
-        crew.alone(end, stop)
-    else:
-        crew.together(workers, end, stop)
-    proofs = tuple(_proof(*pair) for pair in zip(parts, crew.found(), strict=True))
+    found = effort.found([Job(part, halvings, seed, k) for k, part in enumerate(parts)])
+    proofs = tuple(_proof(*pair) for pair in zip(parts, found, strict=True))
     return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
@@ -11,6 +12,9 @@ from holdfast.cell.cell import Cell, as_cell
 from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.clearance.shape import Shape
 
 CellLike = Cell | str | Path
 """A cell, or the file that holds it."""
@@ -60,8 +64,13 @@ def stored(clearance: Clearance, margin: float = 0.0) -> dict[str, Any]:
     return data
 
 
-def from_stored(arm: Arm, data: dict[str, Any]) -> Clearance | None:
+def from_stored(arm: Arm, data: dict[str, Any], shape: Shape | None = None) -> Clearance | None:
     """What :func:`stored` made of a clearance; None if the data hold none.
+
+    Args:
+        arm: The arm.
+        data: As stored.
+        shape: What the capsules cover, if that is known; else they are the shape itself.
 
     Raises:
         InputError: A file that the cell names is gone, or not as it was.
@@ -74,4 +83,5 @@ def from_stored(arm: Arm, data: dict[str, Any]) -> Clearance | None:
         formerly = cell.digest_with(around["data"].get("arm", {}).get("shape", ""))
         if around["sha256"] != formerly and around["sha256"] != cell.digest:
             raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file that it names changed")
-    return Clearance(arm, Capsules.from_dict(apart["capsules"], arm), cell, itself=apart.get("itself", True))
+    capsules = replace(Capsules.from_dict(apart["capsules"], arm), shape=shape)
+    return Clearance(arm, capsules, cell, itself=apart.get("itself", True))

@@ -8,8 +8,10 @@ depth of what its hull fills in.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import combinations, groupby
 from typing import Any, cast
 
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
+from holdfast.arms.builtin import DATA
 from holdfast.cell import solids
 from holdfast.cell.cell import Cell
 from holdfast.cell.solids import Solid
@@ -57,7 +60,8 @@ def cover_of(shape: Shape, arm: Arm, spheres_to: float = SPHERES_TO) -> Capsules
     """
     if not (np.isfinite(spheres_to) and spheres_to > 0):
         raise InputError(f"spheres_to is {spheres_to:g} m; it must be finite and above 0")
-    rows, mean, most = _fitted(shape, spheres_to)
+    ready = _ready() if spheres_to == SPHERES_TO else {}
+    rows, mean, most = ready.get(shape.digest) or fitted(shape, spheres_to)
     made = [(Capsule(link, start, end, radius=radius), owners) for link, start, end, radius, owners in rows]
     for link in sorted({item.link for item in shape.missing}):
         made += [(part, []) for part in along_link(arm, link, assumed_radius(arm))]
@@ -69,6 +73,12 @@ def cover_of(shape: Shape, arm: Arm, spheres_to: float = SPHERES_TO) -> Capsules
     ]
     told = _told(shape, arm, len(rows), mean, most)
     return Capsules(tuple(part for part, _ in made), apart=tuple(apart), source=told, shape=shape)
+
+
+@cache
+def _ready() -> dict[str, Any]:
+    """What :func:`fitted` gave for the shapes of built-in arms, by their digests: ``python -m tools.covers`` writes it."""
+    return dict(json.loads((DATA / "covers.json").read_text()))
 
 
 def _unchecked(shape: Shape, owners: list[str], others: list[str]) -> bool:
@@ -110,7 +120,7 @@ class _Body:
 
 
 @recalled_data
-def _fitted(shape: Shape, spheres_to: float) -> Any:
+def fitted(shape: Shape, spheres_to: float) -> Any:
     """Link, start, end and radius of each capsule, and the links of the file that it is about; mean and largest excess, m."""
     rows: list[Any] = []
     mean, most = [0.0], [0.0]
@@ -323,7 +333,7 @@ def holding(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: flo
         )
         for solid in held
     )
-    rows, _, _ = _fitted(Shape(pieces=pieces, missing=(), source="held"), SPHERES_TO if spheres_to is None else spheres_to)
+    rows, _, _ = fitted(Shape(pieces=pieces, missing=(), source="held"), SPHERES_TO if spheres_to is None else spheres_to)
     parts = [Capsule(link, start, end, radius=radius) for link, start, end, radius, _ in rows]
     return replace(own, parts=(*own.parts, *parts), held=len(parts))
 

@@ -120,7 +120,7 @@ def _source(law: _Law, name: str, function: ca.Function) -> str:
     copies = "".join(f"    if ({x}) *{x} = fine ? out_{x} : 0;\n" for x in others)
     declared = f"    int iw[{max(function.sz_iw(), 1)}];\n    double w[{max(function.sz_w(), 1)}];\n"
     declared += "".join(f"    double out_{x} = 0;\n" for x in others)
-    names = ", ".join(_quoted(x) for x in law.arm.joint_names)
+    names = ", ".join(quoted(x) for x in law.arm.joint_names)
     # Zero rates stop an arm; NaN would go on to its drives.
     return f"""{generator.dump()}
 const char *const {name}_joints[{n}] = {{{names}}};
@@ -159,7 +159,7 @@ def _header(law: _Law, name: str, function: ca.Function) -> str:
 #define {name.upper()}_JOINTS {law.arm.n}
 #define {name.upper()}_ROWS {law.task.m}
 /* What made this file, and of which arm: Arm.fingerprint in Python, "fingerprint" in 'holdfast describe --json'. */
-#define {name.upper()}_HOLDFAST "{_version()}"
+#define {name.upper()}_HOLDFAST "{version()}"
 #define {name.upper()}_ARM "{law.arm.fingerprint}"
 
 #ifdef __cplusplus
@@ -185,7 +185,7 @@ int {name}_check_joints(const char *const names[], int count);
 def _example(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
     start = law.arm.states.get("home", np.mean(finite_limits(law.arm), axis=0))
-    names = ", ".join(_quoted(x) for x in law.arm.joint_names)
+    names = ", ".join(quoted(x) for x in law.arm.joint_names)
     nulls = ", 0" * (function.n_out() - 1)
     return f"""/*
  * A control loop around {name}: an arm without dynamics follows the rates for one second.
@@ -199,8 +199,8 @@ def _example(law: _Law, name: str, function: ca.Function) -> str:
 static const char *const driver[] = {{{names}}};
 
 int main(void) {{
-    double q[{n}] = {{{_numbers(start)}}}; /* rad, m; read it from the drives */
-    double v[{m}] = {{{_numbers([0.01] + [0.0] * (m - 1))}}}; /* {law.task.name}, {law.task.frame} frame, m/s and rad/s */
+    double q[{n}] = {{{numbers(start)}}}; /* rad, m; read it from the drives */
+    double v[{m}] = {{{numbers([0.01] + [0.0] * (m - 1))}}}; /* {law.task.name}, {law.task.frame} frame, m/s and rad/s */
     double rates[{n}];
     const double cycle = 0.01; /* s */
     int wrong = {name}_check_joints(driver, {n}), k, i;
@@ -225,11 +225,9 @@ def _test(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
     cases = _cases(law, function)
     nulls = ", 0" * (function.n_out() - 1)
-    rows = ",\n".join(
-        f"    {{{{{_numbers(q)}}},\n     {{{_numbers(v)}}},\n     {{{_numbers(rates)}}}}}" for q, v, rates in cases
-    )
+    rows = ",\n".join(f"    {{{{{numbers(q)}}},\n     {{{numbers(v)}}},\n     {{{numbers(rates)}}}}}" for q, v, rates in cases)
     return f"""/*
- * Does {name} compute here what holdfast {_version()} computed where it was written? Returns 0 if so.
+ * Does {name} compute here what holdfast {version()} computed where it was written? Returns 0 if so.
  * cc -std=c99 {name}.c {name}_test.c -lm -o {name}_test
  */
 #include "{name}.h"
@@ -290,15 +288,17 @@ def _cases(law: _Law, function: ca.Function) -> list[tuple[Array, Array, Array]]
     )
 
 
-def _version() -> str:
+def version() -> str:
+    """That of holdfast."""
     return versions("holdfast")["holdfast"]
 
 
-def _numbers(values: ArrayLike) -> str:
+def numbers(values: ArrayLike) -> str:
+    """Numbers as C writes them, with every digit."""
     return ", ".join(repr(float(x) + 0.0) for x in np.asarray(values))
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
     """A C string; bytes that are not plain ASCII in octal."""
     plain = "".join(chr(b) if 32 <= b < 127 and b not in b'"\\?' else f"\\{b:03o}" for b in text.encode())
     return f'"{plain}"'
@@ -319,7 +319,7 @@ def _about(law: _Law, name: str, others: list[str]) -> str:
     units = ", ".join(f"{j.name} [{j.unit}]" for j in law.arm.joints)
     lines = [
         f"{name}: {law.phrase()}, for the arm {law.arm.title}.",
-        f"Made by holdfast {_version()} of the arm {law.arm.fingerprint}; C99, needs only math.h.",
+        f"Made by holdfast {version()} of the arm {law.arm.fingerprint}; C99, needs only math.h.",
         "",
         f"q      joint positions: {units}",
         f"v      velocity of the task's rows ({law.task.name}, {law.task.frame} frame), m/s and rad/s",

@@ -11,6 +11,9 @@ from holdfast.designs.designs import Checked as Checked
 from holdfast.designs.designs import Designs as Designs
 from holdfast.designs.evaluation import Evaluated as Evaluated
 from holdfast.designs.evaluation import Evaluator as Evaluator
+from holdfast.designs.evolution.found import EvolvedDesign as EvolvedDesign
+from holdfast.designs.evolution.self_motions import design_for_self_motion as design_for_self_motion
+from holdfast.designs.evolution.workspaces import design_for_workspace as design_for_workspace
 from holdfast.designs.family import Family as Family
 from holdfast.designs.gradient import Sensitivity as Sensitivity
 from holdfast.designs.gradient import sensitivity as sensitivity

@@ -23,6 +23,7 @@ _KINDS = {
     "limp": "swings free: its motor gives no torque",
     "weak": "is weak",
     "friction": "has more friction",
+    "sluggish": "moves against more than it should: its motor is weak, or it has more friction",
     "sensor": "has a faulty sensor, or a clutch that slips",
     "unknown": "has a fault of an unknown kind",
 }

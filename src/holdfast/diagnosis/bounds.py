@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
+from holdfast.diagnosis.fitting import fitted, scaled
 from holdfast.diagnosis.signals import signals_of
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
@@ -22,7 +23,7 @@ from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-FACTOR = 1.5  # on the largest healthy residual
+FACTOR, ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors alone
 OFF_RATE = 0.01  # of the rate: so much may a record differ from its bounds
 _HOUR = 3600.0
 _FORMAT = 1
@@ -42,6 +43,7 @@ class Bounds(Result):
         angle: Likewise, rad.
         coulomb: (n,) dry friction that is taken off, N m and N.
         viscous: (n,) viscous friction that is taken off, N m s/rad and N s/m.
+        scales: (n,) of the links' masses and inertias, fitted to the records; 1 if they were not.
         factor: What the bounds are multiplied by.
         speed: (n,) largest rate of the references, rad/s and m/s: faster motion was not calibrated.
         hours: Of healthy motion.
@@ -58,6 +60,7 @@ class Bounds(Result):
     angle: float
     coulomb: Array
     viscous: Array
+    scales: Array
     factor: float
     speed: Array
     hours: float
@@ -78,6 +81,10 @@ class Bounds(Result):
 
         return self.alarms / self.hours, float(chi2.ppf(0.95, 2 * self.alarms + 2) / (2 * self.hours))
 
+    def body(self, arm: Arm) -> Arm:
+        """The arm with the masses that its torques are compared with."""
+        return scaled(arm, self.scales)
+
     def describe(self) -> list[str]:
         """The hours, the rate of false alarms, and what is watched."""
         lines = [
@@ -91,6 +98,9 @@ class Bounds(Result):
                 f"false alarms: {self.alarms} where each record is watched with the bounds of the others; with 95 % confidence "
                 f"fewer than {told[1]:.3g} an hour, for this arm and motion as it was recorded"
             )
+        if (self.scales != 1).any():
+            low, high = self.scales.min(), self.scales.max()
+            lines.append(f"friction and masses are fitted to the records, masses {low:.2f} to {high:.2f} times the arm's")
         missing = [] if np.isfinite(self.torque).all() else ["torques"]
         missing += [] if np.isfinite(self.position) else ["the measured tool pose"]
         return lines + [f"not watched: {what} (not in the records)" for what in missing]
@@ -133,7 +143,8 @@ def load(file: str | Path) -> Bounds:
         if data.pop("format") != _FORMAT:
             raise ValueError
         none = {None: np.inf}
-        for name in ("torque", "tracking", "coulomb", "viscous", "speed"):
+        data.setdefault("scales", [1.0] * len(data["joints"]))  # files of before
+        for name in ("torque", "tracking", "coulomb", "viscous", "scales", "speed"):
             data[name] = np.array([none.get(x, x) for x in data[name]], dtype=np.float64)
         for name in ("position", "angle"):
             data[name] = none.get(data[name], data[name])
@@ -148,9 +159,10 @@ def calibrate(
     arm: Arm,
     logs: Sequence[Log],
     *,
-    factor: float = FACTOR,
+    factor: float | None = None,
     coulomb: ArrayLike | None = None,
     viscous: ArrayLike | None = None,
+    fit: bool = False,
 ) -> Bounds:
     """Bounds from records of a healthy arm, and how often they would have alarmed.
 
@@ -160,9 +172,13 @@ def calibrate(
     Args:
         arm: The arm, with inertial data if torques were recorded.
         logs: Records of healthy motion, of the kind that is to be watched.
-        factor: Above or equal to 1.
+        factor: Above or equal to 1. None: 1.5; 2.5 where torques were not recorded: then the bounds are those of slow motion
+            (every reference below 0.6 rad/s and m/s for 0.1 s), in which alone tracking is watched.
         coulomb: (n,) dry friction of the joints, N m and N, if it is known.
         viscous: (n,) viscous friction, N m s/rad and N s/m; the arm's own if not given.
+
+        fit: Fit masses of the links and friction of the joints to the records first, so that bounds are tighter; dry friction
+            that is given is kept.
 
     Raises:
         InputError: No records, records of another arm or of several rates, or that have the measured joints as references; or a
@@ -174,16 +190,24 @@ def calibrate(
     """
     if not logs:
         raise InputError("there is no record to calibrate with; give records of healthy motion")
+    if factor is None:
+        factor = FACTOR if any(log.tau is not None for log in logs) else ALONE
     if not factor >= 1:
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
     dry = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
     wet = np.array([j.friction for j in arm.joints]) if viscous is None else np.broadcast_to(np.asarray(viscous), (arm.n,))
-    rate, found = logs[0].rate, []
-    for log in each("records", logs):
+    rate = logs[0].rate
+    for log in logs:
         if abs(log.rate / rate - 1) > OFF_RATE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
-        found.append(signals_of(arm, log, coulomb=dry, viscous=wet))
+    scales = np.ones(arm.n)
+    if fit:
+        scales, dry, wet = fitted(arm, logs, dry, wet)
+    body = scaled(arm, scales)
+    found = [signals_of(arm, log, coulomb=dry, viscous=wet, body=body) for log in each("records", logs)]
     largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
+    if all(np.isnan(s.tracking).all() for s in found):
+        raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")
     same = np.flatnonzero(largest[1].max(axis=0) == 0)
     if same.size:
         raise InputError(
@@ -208,6 +232,7 @@ def calibrate(
         angle=float(bounds[3]),
         coulomb=np.array(dry),
         viscous=np.array(wet, dtype=np.float64),
+        scales=scales,
         factor=float(factor),
         speed=np.max([np.abs(np.diff(log.q_ref, axis=0) * rate).max(axis=0) for log in logs], axis=0),
         hours=hours,

@@ -2,47 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import KW_ONLY, dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, checked_class
+from holdfast.arguments import checked
 from holdfast.arm.model import Arm
+from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.diagnosis.answer import Diagnosis
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.kinds import AGAIN, CLASSIFY, ISOLATE, WATCHED, Verdict, Window, decided
+from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, Decision, cycles
+from holdfast.diagnosis.kinds import Verdict
 from holdfast.diagnosis.observer import BAND, GAIN, friction_torque, low_passed, momentum_kernel
-from holdfast.diagnosis.signals import LIMITS, Scaled, Signals, bridged, signals_of
-from holdfast.errors import InputError
+from holdfast.diagnosis.sensors import Sensors
+from holdfast.diagnosis.signals import CALM, LIMITS, SLOW, SMOOTHED, Scaled, Signals, bridged, signals_of, tool_residual
 from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
-
-
-@checked_class
-@dataclass(frozen=True)
-class Sensors:
-    """How good the sensors are.
-
-    Attributes:
-        position: Standard deviation of the measured tool point, m.
-        angle: Of its orientation, rad.
-        joint: Of a joint sensor, rad or m.
-
-    Raises:
-        InputError: A number that is not above 0.
-    """
-
-    position: float = 0.5e-3
-    angle: float = 1e-3
-    _: KW_ONLY
-    joint: float = 2e-5
-
-    def __post_init__(self) -> None:
-        for name in ("position", "angle", "joint"):
-            if not getattr(self, name) > 0:
-                raise InputError(f"the deviation of '{name}' is {getattr(self, name):g}; it must be above 0")
 
 
 @checked
@@ -79,7 +54,8 @@ class Monitor:
         bounds.require(arm, bounds.rate)
         self.arm, self.bounds, self.sensors = arm, bounds, sensors or Sensors()
         self._dt = 1 / bounds.rate
-        self._momentum = momentum_kernel(arm).single() if np.isfinite(bounds.torque).all() else None
+        self._asked = (cycles(ISOLATE, self._dt), cycles(ISOLATE + CLASSIFY, self._dt))
+        self._momentum = momentum_kernel(bounds.body(arm)).single() if np.isfinite(bounds.torque).all() else None
         self.reset()
 
     # ---- a record ----------------------------------------------------------------------------------------------------
@@ -92,55 +68,114 @@ class Monitor:
         """
         bounds = self.bounds
         bounds.require(self.arm, log.rate)
-        signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous)
+        body = bounds.body(self.arm)
+        signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous, body=body)
         scaled = signals.scaled(bounds.torque, bounds.tracking, bounds.position, bounds.angle)
-        verdict = Verdict(False)
-        if scaled.alarm is not None:
-            row, alarmed = scaled.alarm
-            verdict = self._decided(_window(log, signals, scaled, row, alarmed))
+        verdict = Verdict(False) if scaled.alarm is None else self._followed(log, signals, scaled, *scaled.alarm)
         return Diagnosis(arm=self.arm, log=log, bounds=bounds, signals=signals, scaled=scaled, verdict=verdict)
 
-    def _decided(self, window: Window) -> Verdict:
-        return decided(
-            self.arm,
-            window,
-            bound=self.bounds.torque,
-            coulomb=self.bounds.coulomb,
-            deviations=(self.sensors.position, self.sensors.angle),
-            noise=self.sensors.joint,
-        )
+    def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...]) -> Decision:
+        watched = {"torques": "torque" in levels, "tool": "tool" in levels}
+        return Decision(self.arm, self.bounds, self.sensors, time=time, **watched, tool_alone=alarmed == ("tool",))
+
+    def _followed(self, log: Log, signals: Signals, scaled: Scaled, row: int, alarmed: tuple[str, ...]) -> Verdict:
+        """What a record comes to after its alarm."""
+        decision = self._decision(float(log.t[row]), signals.levels, alarmed)
+        rows = slice(row, row + decision.ends)
+        q, reference = bridged(log.q), bridged(log.q_ref)[rows]
+        low = np.zeros(q.shape)
+        if log.tau is not None:
+            tau = bridged(log.tau)
+            low = low_passed(low_passed(tau, signals.dt, BAND, tau[0]), signals.dt, GAIN, tau[0])
+        parts = [part[rows] for part in (signals.v, signals.torque, low, signals.gravity, scaled.torque, scaled.tracking)]
+        q = q[rows]
+        seen = np.asarray(np.isfinite(signals.tool[rows]).all(axis=1))
+        if log.x is not None and log.quat is not None and seen.any():
+            rotations = rotations_of_quaternions(log.quat[rows][seen])
+            residual = tool_residual(self.arm, q[seen], log.x[rows][seen], rotations)
+            samples = iter(zip(residual, self.arm.jacobian(q[seen]), strict=True))
+        for k in range(len(q)):
+            v, r, torque, gravity, z, y = (part[k] for part in parts)
+            decision.add(q[k], reference[k], (v, r, torque, gravity), z, y)
+            if seen[k]:
+                decision.see(float(scaled.tool[row + k]), *next(samples))
+        return decision.verdict(last=True)
 
     # ---- a control cycle ---------------------------------------------------------------------------------------------
 
     def reset(self) -> None:
         """Forget everything: the next step is the first."""
-        self._time, self._alarm, self._rows = 0.0, 0, list[tuple[Array, ...]]()
+        self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
         self._q: Array | None = None
-        self._over_z, self._over_y = np.zeros(self.arm.n), np.zeros(self.arm.n)
+        self._reference: Array | None = None
+        self._last = np.zeros((SMOOTHED, 6))
+        self.rearm()
+
+    def rearm(self) -> None:
+        """Forget the alarm and what led to it, while the arm goes on: time runs on, and what follows the motion is kept."""
+        self._over_z, self._over_y, self._over_w = np.zeros(self.arm.n), np.zeros(self.arm.n), 0.0
+        self._alarm: Decision | None = None
         self.verdict = Verdict(False)
 
-    def step(self, q: ArrayLike, reference: ArrayLike, torque: ArrayLike | None = None) -> Verdict:
-        """One control cycle: what is known now. Joints and torques alone are watched here, not the tool's pose.
+    def step(
+        self, q: ArrayLike, reference: ArrayLike, torque: ArrayLike | None = None, *, pose: ArrayLike | None = None
+    ) -> Verdict:
+        """One control cycle: what is known now.
 
         Args:
             q: (n,) what the joint sensors tell, rad and m; with NaN the cycle is passed over.
             reference: (n,) what the servos follow, rad and m.
             torque: (n,) commanded, N m and N; None: not watched.
+            pose: (4, 4) measured pose of the tool, taken now; None, or NaN: no sample in this cycle.
         """
         place, wanted = np.asarray(q, dtype=np.float64), np.asarray(reference, dtype=np.float64)
         tau = None if torque is None or self._momentum is None else np.asarray(torque, dtype=np.float64)
+        self._cycle += 1
         if not np.isfinite(place + wanted).all() or (tau is not None and not np.isfinite(tau).all()):
-            self._time += self._dt
             return self.verdict
         self._observe(place, tau)
         z = np.abs(self._r) / self.bounds.torque
-        y = np.abs(wanted - place) / self.bounds.tracking
+        y = self._tracking(wanted, place, alone=tau is None)
         self._over_z = np.maximum(0.0, self._over_z + (z - 1) * self._dt)
-        self._over_y = np.maximum(0.0, self._over_y + (y - 1) * self._dt)
-        if self._alarm or self._over_z.max() > LIMITS["torque"] or self._over_y.max() > LIMITS["tracking"]:
-            self._after(place, wanted, z, y, tau is not None)
-        self._time += self._dt
+        self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
+        seen = None if pose is None else self._look(place, np.asarray(pose, dtype=np.float64))
+        if self._alarm is None:
+            over = {"torque": self._over_z.max(), "tracking": self._over_y.max(), "tool": self._over_w}
+            alarmed = tuple(name for name in over if over[name] > LIMITS[name])
+            if alarmed:
+                time = (self._cycle - 1) * self._dt
+                levels = ("tracking", *["torque"] * (tau is not None), *["tool"] * (self._seen > 0))
+                self._alarm, self.verdict = self._decision(time, levels, alarmed), Verdict(True, time)
+        if self._alarm is not None and self._alarm.count < self._alarm.ends:
+            self._alarm.add(place, wanted, (self._v, self._r, self._low, self._gravity), z, y)
+            if seen is not None:
+                self._alarm.see(*seen, self.arm.jacobian(place))
+            if seen is not None or self._alarm.count in self._asked:
+                self.verdict = self._alarm.verdict()
         return self.verdict
+
+    def _tracking(self, reference: Array, q: Array, *, alone: bool) -> Array:
+        """In units of its bounds; with joint sensors alone NaN unless all references were slow for a while."""
+        if self._reference is not None and (np.abs(reference - self._reference) >= SLOW * self._dt).any():
+            self._fast = self._cycle
+        self._reference = reference
+        if alone and self._cycle - self._fast < cycles(CALM, self._dt):
+            return np.full(len(q), np.nan)
+        return np.asarray(np.abs(reference - q) / self.bounds.tracking)
+
+    def _look(self, q: Array, pose: Array) -> tuple[float, Array] | None:
+        """A sample of the tool's pose: its smoothed residual in units of the bounds, and its own."""
+        if not np.isfinite(pose).all():
+            return None
+        residual = tool_residual(self.arm, q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
+        self._last[self._seen % SMOOTHED] = residual
+        mean = self._last[: self._seen + 1].sum(axis=0) / min(self._seen + 1, SMOOTHED)
+        bounds = self.bounds
+        w = max(float(np.linalg.norm(mean[:3])) / bounds.position, float(np.linalg.norm(mean[3:])) / bounds.angle)
+        if self._seen:
+            self._over_w = max(0.0, self._over_w + (w - 1) * (self._cycle - self._seen_at) * self._dt)
+        self._seen, self._seen_at = self._seen + 1, self._cycle
+        return w, residual
 
     def _observe(self, q: Array, tau: Array | None) -> None:
         n, dt = self.arm.n, self._dt
@@ -162,66 +197,3 @@ class Monitor:
             known = self._tau + energy - self._gravity - friction_torque(self._v, self.bounds.coulomb, self.bounds.viscous)
             self._r = (1 - GAIN * dt) * self._r + GAIN * (p - self._p - dt * known)
         self._p = p
-
-    def _after(self, q: Array, reference: Array, z: Array, y: Array, torques: bool) -> None:
-        """What follows an alarm is kept until the joint and the kind are known."""
-        isolate, last = _cycles(ISOLATE, self._dt), _cycles(ISOLATE + CLASSIFY, self._dt)
-        if not self._alarm:
-            self.verdict = Verdict(True, self._time)
-        self._alarm += 1
-        if self._alarm > last:
-            return
-        self._rows.append((q, reference, self._v, self._r, self._low, self._gravity, z, y))
-        if self._alarm not in (isolate, last):
-            return
-        parts = [np.array(part) for part in zip(*self._rows, strict=True)]
-        names = ("q", "reference", "v", "residual", "torque", "gravity", "z", "y")
-        none = np.zeros((0, self.arm.n))
-        window = Window(
-            time=self.verdict.time,
-            split=min(isolate, self._alarm),
-            levels=("tracking", "torque") if torques else ("tracking",),
-            alarmed=(),
-            w=np.full(self._alarm, np.nan),
-            pose_q=none,
-            x=none,
-            quat=none,
-            **dict(zip(names, parts, strict=True)),
-        )
-        found = self._decided(window)
-        self.verdict = found if self._alarm == last else Verdict(True, found.time, joint=found.joint)
-
-
-def _cycles(seconds: float, dt: float) -> int:
-    return max(1, round(seconds / dt))
-
-
-def _window(log: Log, signals: Signals, scaled: Scaled, row: int, alarmed: tuple[str, ...]) -> Window:
-    """What follows an alarm in a record."""
-    split, last = _cycles(ISOLATE, signals.dt), _cycles(ISOLATE + CLASSIFY, signals.dt)
-    some, q = slice(row, row + last), bridged(log.q)
-    torque = np.zeros(q.shape)
-    if log.tau is not None:
-        tau = bridged(log.tau)
-        torque = low_passed(low_passed(tau, signals.dt, BAND, tau[0]), signals.dt, GAIN, tau[0])
-    far = slice(row, row + _cycles(WATCHED, signals.dt))
-    seen = np.flatnonzero(np.isfinite(signals.tool[far]).all(axis=1)) + row
-    n = log.n
-    return Window(
-        time=float(log.t[row]),
-        split=min(split, len(q[some])),
-        levels=signals.levels,
-        alarmed=alarmed,
-        q=q[some],
-        reference=bridged(log.q_ref)[some],
-        v=signals.v[some],
-        residual=signals.torque[some],
-        torque=torque[some],
-        gravity=signals.gravity[some],
-        z=scaled.torque[some],
-        y=scaled.tracking[some],
-        w=scaled.tool[row : row + _cycles(AGAIN, signals.dt)],
-        pose_q=q[seen],
-        x=np.zeros((0, n)) if log.x is None else log.x[seen],
-        quat=np.zeros((0, n)) if log.quat is None else log.quat[seen],
-    )

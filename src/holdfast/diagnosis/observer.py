@@ -18,6 +18,7 @@ from holdfast.arm.dynamics import inertial_torques
 from holdfast.arm.kinematics import joint_symbols
 from holdfast.arm.machine import Machine
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 
 Array = NDArray[np.float64]
@@ -31,10 +32,15 @@ SLIP = 0.02  # rad/s or m/s: dry friction has turned its sign within about so mu
 def momentum_kernel(arm: Machine) -> Kernel:
     """``(q, v) -> p, dT/dq, g``, each (n,): momentum, what kinetic energy gives, gravity torques; rotors included."""
     q, v = joint_symbols(arm), ca.SX.sym("v", arm.n)
+    return Kernel("momentum", [q, v], [ca.densify(x) for x in momentum_terms(arm, q, v)])
+
+
+def momentum_terms(arm: Machine, q: SX, v: SX) -> tuple[SX, SX, SX]:
+    """The outputs of :func:`momentum_kernel` as expressions."""
     p = inertial_torques(arm, q, ca.SX.zeros(arm.n), v)
     energy = ca.dot(p, v) / 2
     gravity = statics.gravity_torques(arm, statics.composite(arm, q))
-    return Kernel("momentum", [q, v], [ca.densify(x) for x in (p, ca.gradient(energy, q), gravity)])
+    return p, ca.gradient(energy, q), gravity
 
 
 def friction_torque(v: Array, coulomb: Array, viscous: Array) -> Array:

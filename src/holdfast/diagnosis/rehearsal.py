@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.mjcf import import_mujoco, quiet
@@ -32,8 +32,9 @@ _POSE_RATE = 100.0  # Hz
 @says("simulating a record")
 def rehearse(
     arm: Arm,
-    duration: float,
+    duration: float | None = None,
     *,
+    motion: ArrayLike | None = None,
     faults: Sequence[FaultEvent] = (),
     seed: int = 0,
     body: int | None = None,
@@ -45,12 +46,13 @@ def rehearse(
 ) -> Log:
     """A record of a simulated arm that swings each joint to and fro, with noise (needs ``holdfast[physics]``).
 
-    Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range. The body is not
-    quite the arm's model: masses and friction are off by up to ``mismatch``. Faults begin and end as their events say.
+    Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a motion. The body
+    is not quite the arm's model: masses and friction are off by up to ``mismatch``. Faults begin and end as their events say.
 
     Args:
         arm: The arm, with inertial data.
-        duration: s.
+        duration: s; None with a motion.
+        motion: (T, n) references, rad and m, 1000 a second, from rest; None: sines.
         faults: Events in it; times are those of the record.
         seed: Of the motion and the noise.
         body: Seed of what is off: records of one robot have one. None: a robot of its own for each ``seed``.
@@ -64,15 +66,17 @@ def rehearse(
         A record of 1000 samples a second. Everything in it is simulated.
 
     Raises:
-        InputError: Not a finite time above 0, an unknown joint, or a fault that the model cannot have.
+        InputError: Not a finite time above 0, both or none of time and motion, an unknown joint, or a fault that the model
+            cannot have.
         ArmError: Inertial data are missing or impossible.
         HoldfastError: MuJoCo is not installed.
     """
-    if not 0 < duration < np.inf:
-        raise InputError(f"duration is {duration:g}; it must be a finite number of seconds above 0")
+    if (duration is None) == (motion is None):
+        raise InputError("give the duration or the motion of the record, one of them")
     mujoco, rng, n = import_mujoco(), np.random.default_rng(seed), arm.n
-    low, high = (np.where(np.isfinite(x), x, s * np.pi) for x, s in ((arm.lower, -1.0), (arm.upper, 1.0)))
-    middle, half = (low + high) / 2, np.minimum(_HALF, (high - low) / 4)
+    reference = _swinging(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
+    count = len(reference)
+    t = np.arange(count, dtype=np.float64) * _STEP
     spec = mujoco_spec(arm, np.zeros(n), range(n), step=_STEP)
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     for joint in arm.joints:
@@ -88,21 +92,15 @@ def rehearse(
     model.dof_armature[:] = [joint.armature or _ROTOR for joint in arm.joints]
     data = mujoco.MjData(model)
     stiffness, damping = Servos(step=_STEP).gains(arm, mujoco, model, start=np.zeros(n))
-    pace = speed / half * rng.uniform(0.5, 1.0, n)
-    count = int(np.ceil(duration / _STEP))
-    t = np.arange(count, dtype=np.float64) * _STEP
-    # From rest: the phase runs up within half a second.
-    phase = np.where(t < 0.5, t**2, t - 0.25)[:, None] * pace
-    reference = middle + half * np.sin(phase)
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _STEP
-    data.qpos[:] = middle
+    data.qpos[:] = reference[0]
     mujoco.mj_forward(model, data)
     injector = FaultInjector(model, data, arm, faults=faults)
     noise = rng.normal(0, _NOISE["q"], (count, n))
     gravity = arm._gravity_torque_kernel.single()
     told, tau, true = np.empty((count, n)), np.empty((count, n)), np.empty((count, n))
     effort = np.array([joint.effort for joint in arm.joints])
-    last = middle.copy()
+    last = reference[0].copy()
     for k in each("control cycles", range(count), every=1000):
         injector.before_step(t[k])
         true[k] = data.qpos
@@ -115,6 +113,17 @@ def rehearse(
         mujoco.mj_step(model, data)
     x, quat = (_measured(arm, true, rng)) if pose else (None, None)
     return Log(t=t, q_ref=reference, q=told, tau=tau + rng.normal(0, _NOISE["tau"], tau.shape), x=x, quat=quat)
+
+
+def _swinging(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> Array:
+    """Sines about the middle of each range, from rest: their phase runs up within half a second."""
+    if duration is None or not 0 < duration < np.inf:
+        raise InputError(f"duration is {duration}; it must be a finite number of seconds above 0")
+    low, high = (np.where(np.isfinite(x), x, s * np.pi) for x, s in ((arm.lower, -1.0), (arm.upper, 1.0)))
+    half = np.minimum(_HALF, (high - low) / 4)
+    pace = speed / half * rng.uniform(0.5, 1.0, arm.n)
+    t = np.arange(int(np.ceil(duration / _STEP)), dtype=np.float64) * _STEP
+    return np.asarray((low + high) / 2 + half * np.sin(np.where(t < 0.5, t**2, t - 0.25)[:, None] * pace))
 
 
 def _measured(arm: Arm, q: Array, rng: np.random.Generator) -> tuple[Array, Array]:

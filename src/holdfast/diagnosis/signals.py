@@ -17,6 +17,10 @@ Array = NDArray[np.float64]
 
 LIMITS = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
 SMOOTHED = 5  # samples of the tool's pose
+SLOW, CALM = (
+    0.6,
+    0.1,
+)  # rad/s or m/s, s: with joint sensors alone, tracking counts while all references were so slow for so long
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -44,7 +48,7 @@ class Signals:
     Attributes:
         dt: s.
         torque: (T, n) residual torque r, N m and N; 0 without torques.
-        tracking: (T, n) distance from the reference, rad and m.
+        tracking: (T, n) distance from the reference, rad and m; without torques NaN in motion that is not slow.
         tool: (T, 6) measured pose less that of the joints, m and rad, smoothed; NaN between samples.
         v: (T, n) filtered rates, rad/s and m/s.
         gravity: (T, n) N m and N; 0 without torques.
@@ -62,7 +66,7 @@ class Signals:
     def largest(self, name: str) -> Array | float:
         """Largest size of ``torque`` or ``tracking``, (n,), or of the tool's ``position`` or ``angle``; infinite if absent."""
         if name in ("torque", "tracking"):
-            values = np.nanmax(np.abs(getattr(self, name)), axis=0)
+            values = np.nan_to_num(np.abs(getattr(self, name))).max(axis=0)
             return np.asarray(values if name in self.levels else np.full(len(values), np.inf))
         part = self.tool[:, :3] if name == "position" else self.tool[:, 3:]
         return float(np.nanmax(np.linalg.norm(part, axis=1))) if "tool" in self.levels else np.inf
@@ -93,7 +97,7 @@ class Signals:
         return total
 
 
-def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals:
+def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm | None = None) -> Signals:
     """The residuals of a record.
 
     Args:
@@ -101,6 +105,7 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals
         log: The record, evenly sampled; missing joint values are bridged, and are nobody's fault.
         coulomb: (n,) dry friction, N m and N.
         viscous: (n,) N m s/rad and N s/m.
+        body: The arm with the masses that it has, if they are known better.
 
     Raises:
         InputError: A record of another number of joints.
@@ -112,24 +117,33 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array) -> Signals
     q = bridged(log.q)
     levels, r, gravity = ["tracking"], np.zeros(q.shape), np.zeros(q.shape)
     if log.tau is not None:
-        r, v, gravity = residuals(momentum_kernel(arm), q, bridged(log.tau), dt=dt, coulomb=coulomb, viscous=viscous)
+        r, v, gravity = residuals(momentum_kernel(body or arm), q, bridged(log.tau), dt=dt, coulomb=coulomb, viscous=viscous)
         levels.append("torque")
     else:
         v = filtered_rates(q, dt)
+        tracking[~calm(log.q_ref, dt)] = np.nan
     tool = np.full((len(q), 6), np.nan)
     if log.x is not None and log.quat is not None:
         there = np.flatnonzero(np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
         if there.size >= SMOOTHED:
-            tool[there] = _smoothed(tool_residual(arm, q[there], log.x[there], log.quat[there]))
+            rotations = rotations_of_quaternions(log.quat[there])
+            tool[there] = _smoothed(tool_residual(arm, q[there], log.x[there], rotations))
             levels.append("tool")
     return Signals(dt=dt, torque=r, tracking=tracking, tool=tool, v=v, gravity=gravity, levels=tuple(levels))
 
 
-def tool_residual(arm: Arm, q: Array, x: Array, quat: Array) -> Array:
+def tool_residual(arm: Arm, q: Array, x: Array, rotations: Array) -> Array:
     """(N, 6) measured tool poses less those of the joints: ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
     poses = arm.forward_kinematics(q)
-    turns = rotation_vectors(rotations_of_quaternions(quat) @ poses[:, :3, :3].transpose(0, 2, 1))
+    turns = rotation_vectors(rotations @ poses[:, :3, :3].transpose(0, 2, 1))
     return np.concatenate([x - poses[:, :3, 3], turns], axis=1)
+
+
+def calm(reference: Array, dt: float) -> NDArray[np.bool_]:
+    """(T,) whether all references (T, n) were slow for a while."""
+    fast = np.asarray((np.abs(np.diff(reference, axis=0, prepend=reference[:1])) >= SLOW * dt).any(axis=1))
+    rows = np.arange(len(fast))
+    return np.asarray(rows - np.maximum.accumulate(np.where(fast, rows, -1)) >= max(1, round(CALM / dt)))
 
 
 def bridged(values: Array) -> Array:

@@ -1,10 +1,10 @@
 from holdfast.endurance.endurance import Compared as Compared
 from holdfast.endurance.endurance import Endurance as Endurance
 from holdfast.endurance.endurance import Found as Found
-from holdfast.endurance.endurance import VelocityJump as VelocityJump
 from holdfast.endurance.given import endurance_of as endurance_of
 from holdfast.endurance.injection import Injection as Injection
 from holdfast.endurance.rates import FailureRates as FailureRates
 from holdfast.endurance.reaching import Approach as Approach
 from holdfast.endurance.reaching import endure_to as endure_to
 from holdfast.endurance.search import endure as endure
+from holdfast.endurance.timed_motion import VelocityJump as VelocityJump

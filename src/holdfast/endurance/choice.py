@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -17,6 +18,23 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 _ALIKE = 1e-12  # of all that can be gathered: less is rounding
+_DENSE = 1 << 20  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
+
+
+@dataclass(frozen=True, eq=False)
+class Moves:
+    """The M moves from the nodes of a pose to those of the next that are short enough, in order of where they lead.
+
+    Attributes:
+        to, source: (M,) nodes.
+        far: (M,) squared distances.
+        beyond: (M,) how much farther than allowed a joint goes, rad and m; below 0 where none does.
+    """
+
+    to: Index
+    source: Index
+    far: Array
+    beyond: Array
 
 
 class Front:
@@ -35,20 +53,27 @@ class Front:
         self._total, self._way = gains[0], np.zeros(len(gains[0]))
         self._came: list[Index] = []
 
-    def advance(self, far: Array, beyond: Array) -> None:
-        """To the next pose: squared distances of its nodes (Q, P), and how far beyond what is allowed these are."""
+    def advance(self, moves: Moves) -> None:
+        """To the next pose."""
         if self.ended is not None:
             return
         gain = self.gains[len(self._came) + 1]
-        gathered = np.where(beyond <= self.extra, self._total, -np.inf)
-        most = gathered.max(axis=1)
-        if not np.isfinite(most).any():
+        kept = (moves.beyond <= self.extra) & np.isfinite(self._total[moves.source])
+        to, source = moves.to[kept], moves.source[kept]
+        if not to.size:
             self.ended = len(self._came)
             return
-        price = np.where(gathered >= most[:, None] - self._alike, self._way + far, np.inf)
-        source = price.argmin(axis=1)
-        self._total, self._way = most + gain, price[np.arange(len(gain)), source]
-        self._came.append(source)
+        gathered = self._total[source]
+        most = _largest(gathered, to, len(gain))
+        good = gathered >= most[to] - self._alike
+        to, source = to[good], source[good]
+        price = self._way[source] + moves.far[kept][good]
+        least = -_largest(-price, to, len(gain))
+        came = np.zeros(len(gain), dtype=np.int64)
+        cheapest = np.flatnonzero(price == least[to])[::-1]
+        came[to[cheapest]] = source[cheapest]  # what is written last stays: the first
+        self._total, self._way = most + gain, least
+        self._came.append(came)
 
     @property
     def most(self) -> float:
@@ -73,22 +98,62 @@ def advanced(arm: Arm, nodes: list[Nodes], limit: Array, fronts: Sequence[Front]
         limit: (n,) largest motion of each joint from pose to pose, rad and m; infinite where none is known.
         fronts: At the first pose.
     """
+    extra = max(front.extra for front in fronts)
     for a, b in each("poses", list(pairwise(nodes)), whole=True):
-        far = squared_distances(b.flat, a.flat)
-        beyond = _beyond(arm, b, a, far, limit)
+        moves = _moves(arm, b, a, limit, extra)
         for front in fronts:
-            front.advance(far, beyond)
+            front.advance(moves)
 
 
-def _beyond(arm: Arm, b: Nodes, a: Nodes, far: Array, limit: Array) -> Array:
-    """(Q, P) how much farther than allowed a joint goes; of joints whose limit nobody knows the whole move must be short."""
-    beyond = np.full(far.shape, -np.inf)
-    for x, y, most, turns in zip(b.q.T, a.q.T, limit, joint_space.turning(arm), strict=True):
-        if np.isfinite(most):
-            moved = np.abs(x[:, None] - y)
-            moved = np.abs(np.remainder(moved + np.pi, 2 * np.pi) - np.pi) if turns else moved
-            np.maximum(beyond, moved - most, out=beyond)
-    if not np.isfinite(limit).all():
-        nearest = np.sqrt(far.min(axis=0))
-        beyond[far > (3 * a.span + 2 * float(np.median(nearest))) ** 2] = np.inf
+def _largest(values: Array, group: Index, groups: int) -> Array:
+    """(G,) the largest value of each group (M,), which come in order; -inf of one without any."""
+    most = np.full(groups, -np.inf)
+    if group.size:
+        first = np.flatnonzero(np.diff(group, prepend=-1))
+        most[group[first]] = np.maximum.reduceat(values, first)
+    return most
+
+
+def _moves(arm: Arm, b: Nodes, a: Nodes, limit: Array, extra: float) -> Moves:
+    """Those from a to b that go no farther than that beyond the limits; of joints without one the whole move must be short."""
+    if len(a.q) * len(b.q) <= _DENSE:
+        squares = squared_distances(b.flat, a.flat)
+        most = _short(a, np.sqrt(squares.min(axis=0)), limit)
+        to, source = (x.ravel() for x in np.indices(squares.shape))
+        far, beyond = squares.ravel(), _beyond(arm, b.q[:, None], a.q[None], limit).ravel()
+    else:
+        from scipy.spatial import KDTree
+
+        most = _short(a, KDTree(b.flat).query(a.flat)[0], limit)
+        to, source = _within(arm, b.q, a.q, np.where(np.isfinite(limit), limit + extra, np.pi / 2 * most))
+        far, beyond = ((b.flat[to] - a.flat[source]) ** 2).sum(axis=1), _beyond(arm, b.q[to], a.q[source], limit)
+    some = (beyond <= extra) & (far <= most**2)
+    return Moves(to[some], source[some], far[some], beyond[some])
+
+
+def _short(a: Nodes, nearest: Array, limit: Array) -> float:
+    """How long a move may be where a joint has no limit; ``nearest`` (P,) is how far the next pose is from each node."""
+    return np.inf if np.isfinite(limit).all() else 3 * a.span + 2 * float(np.median(nearest))
+
+
+def _beyond(arm: Arm, q: Array, before: Array, limit: Array) -> Array:
+    """(...) how much farther than allowed a joint goes, at most, from ``before`` to q (..., n)."""
+    beyond = np.full(np.broadcast_shapes(q.shape, before.shape)[:-1], -np.inf)
+    for k in np.flatnonzero(np.isfinite(limit)):
+        moved = np.abs(q[..., k] - before[..., k])
+        if joint_space.turning(arm)[k]:
+            moved = np.abs(np.remainder(moved + np.pi, 2 * np.pi) - np.pi)
+        np.maximum(beyond, moved - limit[k], out=beyond)
     return beyond
+
+
+def _within(arm: Arm, b: Array, a: Array, reach: Array) -> tuple[Index, Index]:
+    """Which of b (Q, n) and a (P, n) are apart by no more than ``reach`` (n,) in any joint, in order."""
+    from scipy.spatial import KDTree
+
+    wide = reach * (1 + 1e-9)
+    boxes = np.where(joint_space.turning(arm), 2 * np.pi * (1 + 1e-12) / wide, 0.0)  # rounding stays inside
+    trees = [KDTree(joint_space.folded(arm, x) / wide, boxsize=boxes) for x in (b, a)]
+    found = trees[0].sparse_distance_matrix(trees[1], 1.0, p=np.inf, output_type="ndarray")
+    order = np.lexsort((found["j"], found["i"]))
+    return found["i"][order], found["j"][order]

@@ -178,6 +178,11 @@ def _rows(task: Task, poses: Array) -> Array:
     return np.concatenate([rows[..., :3] @ back, rows[..., 3:] @ back], axis=2)
 
 
+def task_jacobian(arm: Arm, task: Task, q: Array) -> Array:
+    """(N, m, n) of the rows of a task, m and rad, at q (N, n)."""
+    return np.asarray(_rows(task, arm.forward_kinematics(q)) @ arm.jacobian(q))
+
+
 def with_axis(task: Task, path: TimedPath, axis: Array, direction: Array) -> tuple[Task, TimedPath] | None:
     """The task and path of that, for an axis (3,) in the tool's frame and a direction (3,) in the world, unit vectors.
 

@@ -17,7 +17,7 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.endurance.injection import Injection, drawn_locks, finished, healthy
 from holdfast.endurance.problem import Kind, Mode, Problem
 from holdfast.endurance.rates import FailureRates
-from holdfast.endurance.timed_motion import as_trajectory
+from holdfast.endurance.timed_motion import VelocityJump, as_trajectory
 from holdfast.errors import InputError
 from holdfast.files.output import write_table
 from holdfast.keep.kept import Kept
@@ -35,33 +35,6 @@ Index = NDArray[np.int64]
 _LITTLE, _STILL = 0.3, 1e-6  # rad and m along a whole curve
 _WHOLE = 1e-9  # of a probability: less is rounding
 _AT: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class VelocityJump:
-    """The twist of the end effector that vanishes when one joint stops at once, ``J_i q_i'``.
-
-    Attributes:
-        linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
-        mean_linear, mean_angular: Means over time and joints, weighted by the failure rates.
-
-    Source: the jump of the end effector's velocity at a lock, Abdi et al., Robotica 30, 2012 (read as an abstract).
-    """
-
-    linear: Array
-    angular: Array
-    mean_linear: float
-    mean_angular: float
-
-    @property
-    def most_linear(self) -> float:
-        """m/s."""
-        return float(self.linear.max())
-
-    @property
-    def most_angular(self) -> float:
-        """rad/s."""
-        return float(self.angular.max())
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -352,10 +325,12 @@ class Endurance(Result):
         how = "without leaving the path" if self.mode == "on-path" else "with detours"
         lines = [f"{self.arm.title}, {self.path.describe()}: {self.headline}, {how}"]
         if self.kind == "lower bound":
+            cone = ", or the axis that is kept in a cone and fewer joints" if self._problem.conditions.left else ""
             lines.append(
                 "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
-                f"that hold {self._problem.spare - 1} more of its joints"
-                + (", or the axis that is kept in a cone and fewer joints" if self._problem.conditions.left else "")
+                f"that hold {self._problem.spare - 1} more of its joints{cone}"
+                if self.mode == "on-path"
+                else "a lower bound: of the poses to come only what inverse kinematics found with the joint locked counts"
             )
         elif self.found is not None:
             low, high = self.found.interval

@@ -75,7 +75,7 @@ def endurance_of(
 
     Raises:
         InputError: A motion that is not on the path or breaks what is kept, rates or options that do not fit.
-        TaskError: No redundancy, or detours with more than one degree of it.
+        TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
     """
     problem = posed(
         arm,

@@ -21,7 +21,6 @@ _STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
 _WHOLE = 5.0  # what the duration counts beside joints, rad
 _LONGEST = 60.0  # of a branch
 _OFF = 1e-3  # m and rad at the end: the integration went wrong
-_RESTARTS = 30
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,7 +72,7 @@ def finished(problem: Problem, q: Array, time: Array, joint: Index, *, begin: Ar
     Its motion began at ``begin`` (n,).
     """
     if problem.mode == "detour":
-        return _with_detours(problem, q, time, joint)
+        return problem.regained(q, np.searchsorted(problem.time, time), joint)
     if problem.spare == 1:
         return _on_path(problem, q, time, joint, tuple(problem.immobile))
     survived = np.zeros(len(q), dtype=bool)
@@ -153,26 +152,6 @@ def _direction(problem: Problem, state: Array, stopped: tuple[Index, tuple[int, 
     except np.linalg.LinAlgError:
         found = (np.linalg.pinv(system) @ wanted)[:, :, 0]
     return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-300))
-
-
-def _with_detours(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
-    """Inverse kinematics with the joint locked finds a configuration of every sample still to come."""
-    first = np.searchsorted(problem.time, time)
-    count = len(problem.time) - first
-    owner = np.repeat(np.arange(len(q)), count)
-    pose = np.concatenate([np.arange(k, len(problem.time)) for k in first])
-    reached = solver(problem.arm, problem.task).reaches_locked(
-        problem.lock.poses[pose],
-        joint[owner],
-        q[owner, joint[owner]],
-        np.random.SeedSequence(0),
-        _RESTARTS,
-        1e-6,
-        problem.conditions.holds if problem.conditions.any else None,
-    )
-    survived = np.ones(len(q), dtype=bool)
-    survived[owner[~reached]] = False
-    return survived
 
 
 def healthy(problem: Problem, q: Array, time: Array) -> Array:

@@ -16,7 +16,7 @@ from holdfast.caching import cached_property
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.conditions import Conditions, with_axis
+from holdfast.endurance.conditions import Conditions, task_jacobian, with_axis
 from holdfast.endurance.locks import Lock
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError, TaskError
@@ -29,6 +29,7 @@ from holdfast.solvers.self_motions import SelfMotion, traced, tracer
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Index = NDArray[np.int64]
 
 Mode = Literal["on-path", "detour"]
 Kind = Literal["exact", "upper bound", "lower bound"]
@@ -37,6 +38,8 @@ ON = 1e-3  # m and rad that a configuration given may be off the path
 _IMMOBILE = 1e-9  # rad and m between the limits of a joint that does not move, or in a motion
 _SETS = 24  # of joints that a failed arm may hold
 _FIRST, _STARTS = 3, 64  # configurations of the first pose that are tried, of so many starts
+_RESTARTS, _FOUND = 30, 1e-6  # of inverse kinematics with a joint locked; rad, and lengths in units of the arm's own
+_RANK = 1e-6  # of the largest singular value
 _COARSE, _FEWEST = 0.15, 11  # rad between nodes, and poses, of what is only tried
 
 
@@ -93,6 +96,15 @@ class Problem:
         order = np.random.default_rng(np.random.SeedSequence(self.seed)).permutation(len(every))
         return [every[k] for k in order[:_SETS]]
 
+    def leaves_one(self, q: Array, others: Sequence[int]) -> bool:
+        """Whether one degree of redundancy is left at q (n,) if other joints stay there.
+
+        More are left where one of them could not move anyway, such as a roll joint that the tool's axis sets.
+        """
+        mobile = [k for k in range(self.arm.n) if k not in self.immobile and k not in others]
+        size = np.linalg.svd(task_jacobian(self.arm, self.task, q[None])[0][:, mobile], compute_uv=False)
+        return bool(size[-1] > _RANK * size[0])
+
     def narrower(self, axis: Array) -> Problem | None:
         """The same with the axis of the tool that a cone leaves free held along ``axis`` (3,), a unit vector in the world.
 
@@ -136,7 +148,28 @@ class Problem:
         """(T, n) which locks of a motion (T, n) are survived; none where it is NaN."""
         if self.mode == "on-path":
             return self.followed(q)
+        if self.spare > 1:
+            survives = np.isfinite(q).all(axis=1, keepdims=True).repeat(self.arm.n, axis=1)
+            row, joint = np.nonzero(survives)
+            survives[row, joint] = self.regained(q[row], row + 1, joint)
+            return survives
         return np.array([tables.within(self.arm, x[None], at)[0] for x, at in zip(q, self._ranges, strict=True)])
+
+    def regained(self, q: Array, first: Index, joint: Index) -> Flags:
+        """(N,) True where inverse kinematics finds configurations with joint (N,) where it is at q (N, n), of all poses from
+        number ``first`` (N,) on.
+        """
+        count = len(self.time) - first
+        owner = np.repeat(np.arange(len(q)), count)
+        pose = np.concatenate([np.arange(k, len(self.time)) for k in first])
+        accept = self.conditions.holds if self.conditions.any else None
+        value, seed = q[owner, joint[owner]], np.random.SeedSequence(self.seed)
+        found = solver(self.arm, self.task).reaches_locked(
+            self.lock.poses[pose], joint[owner], value, seed, _RESTARTS, _FOUND, accept
+        )
+        survived = np.ones(len(q), dtype=bool)
+        survived[owner[~found]] = False
+        return survived
 
     def followed(self, q: Array) -> Flags:
         """(T, n) as :meth:`judge`, without leaving the path.
@@ -207,7 +240,7 @@ def posed(
 
     Raises:
         InputError: Options that do not fit, or a row that is kept exactly and that the path leaves free.
-        TaskError: No redundancy, or detours with more than one degree of it.
+        TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
     """
     if mode not in ("on-path", "detour"):
         raise InputError(f"mode is '{mode}'; use 'on-path' or 'detour'")
@@ -247,10 +280,10 @@ def posed(
         )
     if problem.spare == 1:
         return problem.holding({}) if problem.immobile else problem
-    if mode == "detour":
+    if mode == "detour" and conditions.any:
         raise TaskError(
-            f"'{arm.name}' has {problem.spare} degrees of redundancy for the task '{rows.name}'; detours are looked at "
-            "with one: use the mode on-path, or choose a task with more rows"
+            f"'{arm.name}' has {problem.spare} degrees of redundancy for the task '{rows.name}'; detours among obstacles or "
+            "with something kept are looked at with one: use the mode on-path, or choose a task with more rows"
         )
     return problem
 

@@ -76,6 +76,7 @@ def endure(
         mode: ``on-path``: after a lock the tool follows its path without leaving it, at its own pace. ``detour``: it may
             leave it and come back. That only asks for the locked joint's value at every pose still to come: without obstacles
             the straight way to a configuration that has it lies within the joint limits. Among obstacles it is an upper bound.
+            With more than one degree of redundancy inverse kinematics looks for these configurations.
         task: Rows of the poses to keep. Default: ``position`` for a path of positions, else ``pose``; of an arm that moves in a
             plane those in it.
         samples: Poses, evenly spaced in time.
@@ -100,7 +101,7 @@ def endure(
     Raises:
         InputError: Rates, a start or options that do not fit, a path that breaks what is kept, or a row kept exactly that the
             task leaves free.
-        TaskError: No redundancy, or detours with more than one degree of it.
+        TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
         HoldfastError: A pose without a (clear) configuration, or no continuous motion along the path.
 
     Source: sets of values that a joint may be locked at, Lewis and Maciejewski 1997; survival over a whole path, its optimum
@@ -204,6 +205,8 @@ def _holding(problem: Problem, begin: Array | None) -> Endurance:
     for asked, q in each("configurations of the first pose", list(_begun_from(problem, begin))):
         coarse = asked.coarser()
         for joints in asked.sets:
+            if not asked.leaves_one(q, joints):  # no curves, and their tracing has no end
+                continue
             values = {k: float(q[k]) for k in joints}
             try:
                 within, over = _Curves(coarse.holding(values), begin).most

@@ -1,6 +1,8 @@
-"""A motion over the poses of a path as a trajectory: between its samples too, with rates and errors."""
+"""A motion over the poses of a path between its samples too, with rates and errors; what a lock takes from its velocity."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +17,33 @@ from holdfast.solvers.inverse_kinematics import solver
 Array = NDArray[np.float64]
 
 _FINER = 5
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class VelocityJump:
+    """The twist of the end effector that vanishes when one joint stops at once, ``J_i q_i'``.
+
+    Attributes:
+        linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
+        mean_linear, mean_angular: Means over time and joints, weighted by the failure rates.
+
+    Source: the jump of the end effector's velocity at a lock, Abdi et al., Robotica 30, 2012 (read as an abstract).
+    """
+
+    linear: Array
+    angular: Array
+    mean_linear: float
+    mean_angular: float
+
+    @property
+    def most_linear(self) -> float:
+        """m/s."""
+        return float(self.linear.max())
+
+    @property
+    def most_angular(self) -> float:
+        """rad/s."""
+        return float(self.angular.max())
 
 
 def as_trajectory(problem: Problem, q: Array) -> Trajectory:

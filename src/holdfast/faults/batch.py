@@ -45,6 +45,16 @@ class FaultBatch(Result):
     def __len__(self) -> int:
         return len(self.episodes)
 
+    @property
+    def lock_times(self) -> Array:
+        """(N, n) when each joint locks, s, infinite for never: ``locked`` of :func:`holdfast.simulate`, a run an episode.
+
+        Raises:
+            InputError: Another fault than a lock for good, see :meth:`holdfast.faults.FaultEvents.locks`.
+        """
+        times = [events.locks() for events in self.episodes]
+        return np.array([[found.get(name, np.inf) for name in self.joints] for found in times])
+
     def describe(self) -> list[str]:
         """How many episodes have how many faults."""
         count = [len(events) for events in self.episodes]

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
+from holdfast.errors import InputError
 from holdfast.faults.entry import Kind
 
 
@@ -61,6 +62,23 @@ class FaultEvents(tuple[FaultEvent, ...]):
 
     def __new__(cls, events: Iterable[FaultEvent] = ()) -> FaultEvents:  # noqa: D102
         return super().__new__(cls, sorted(events, key=lambda e: (e.onset, e.joint, e.kind, e.end)))
+
+    def locks(self) -> dict[str, float]:
+        """When each joint locks, s, by name: what :func:`holdfast.simulate` takes as ``locked`` and ``time``.
+
+        Raises:
+            InputError: A fault of another kind, or one that is over again or locks elsewhere: bodies and motors are needed.
+        """
+        times: dict[str, float] = {}
+        for event in self:
+            stays = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
+            if not stays or event.parameters.get("at", "here") != "here":
+                raise InputError(
+                    f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
+                    "--physics, or use holdfast.simulate_faults"
+                )
+            times.setdefault(event.joint, event.onset)
+        return times
 
     @property
     def id(self) -> str:

@@ -16,10 +16,11 @@ from holdfast.failures import Degraded
 from holdfast.faults.entry import SENSOR
 from holdfast.faults.events import FaultEvent
 from holdfast.reach import reachable_when_locked
+from holdfast.recovery import recover
 from holdfast.solvers import solve_ik
 
 Array = NDArray[np.float64]
-Answer = Literal["yes", "not found", "unknown"]
+Answer = Literal["yes", "no", "not found", "unknown"]
 
 _LOCKS = frozenset({"locked", "slipping_clutch"})
 _BRAKED = frozenset({"limp", *SENSOR})
@@ -31,7 +32,7 @@ class Feasibility:
     """Whether a goal is within reach.
 
     Attributes:
-        answer: ``yes``; ``not found``, which proves nothing; or ``unknown``.
+        answer: ``yes``; ``no``, which is proved; ``not found``, which proves nothing; or ``unknown``.
         why: One sentence.
         q: (n,) a configuration at the goal, rad and m; None but for ``yes``.
     """
@@ -47,6 +48,7 @@ def feasible(
     places: Mapping[FaultEvent, float],
     *,
     task: str | Task | None = None,
+    at: ArrayLike | None = None,
     brakes: bool = True,
     restarts: int = 100,
 ) -> Feasibility:
@@ -54,13 +56,15 @@ def feasible(
 
     A locked joint stays where it is; a free-swinging joint, and one whose sensor cannot be trusted, is locked by its brake. A
     weak motor must carry the arm against gravity at some configuration of the goal. Friction and speed make a goal late, not
-    infeasible.
+    infeasible. Given where the arm is, a motion from there must exist as well, and what is then proved to be impossible is a
+    ``no``.
 
     Args:
         arm: The healthy arm.
         goal: (3,) position or (4, 4) pose of the tool in the world, m.
         places: The faults that are there, with where their joints were at the onset, rad or m.
         task: Rows of the pose that matter; position or pose by the goal if not given.
+        at: (n,) where the arm is, rad and m; None: a configuration at the goal is enough.
         brakes: Whether the joints have brakes.
         restarts: Random starts of the search.
 
@@ -83,18 +87,41 @@ def feasible(
         return Feasibility("unknown", "locks and weak motors together are not looked at")
     if weak:
         return _carried(arm, pose, rows, weak)
-    limited = next((e for e in left if e.kind == "reduced_range"), None)
-    if limited is not None:
-        return Feasibility("unknown", f"how far {limited.joint} still moves is not looked at")
+    ranges = {e.joint: _range(arm, e, places[e]) for e in left if e.kind == "reduced_range"}
+    parts = [f"{joint} locked" for joint in held] + [f"{joint} within its reduced range" for joint in ranges]
+    what = f"with {' and '.join(parts)}" if parts else "by the healthy arm"
+    if at is not None and parts:
+        return _recovered(arm, Degraded(arm, locked=held, ranges=ranges), at, goal=pose, rows=rows, what=what)
+    if held and ranges:
+        return Feasibility("unknown", "locks and reduced ranges together need where the arm is: give at")
     if held:
         locked = held if len(held) == 1 else Degraded(arm, locked=held)
         found = reachable_when_locked(arm, where, locked, task=rows, restarts=restarts)
-        what = "with " + " and ".join(f"{joint} locked" for joint in held)
     else:
-        found, what = solve_ik(arm, pose, task=rows, restarts=restarts), "by the healthy arm"
+        whole = Degraded(arm, ranges=ranges).limited if ranges else arm
+        found = solve_ik(whole, pose, task=rows, restarts=restarts)
     if not found.success:
         return Feasibility("not found", f"no configuration of the goal was found {what}")
     return Feasibility("yes", f"the goal is reached {what}", np.asarray(found.q))
+
+
+def _range(arm: Arm, event: FaultEvent, place: float) -> tuple[float, float]:
+    """What is left of a joint's range, as the injector has it: where the joint is belongs to it."""
+    joint, numbers = arm.joints[arm.joint_index(event.joint)], event.parameters
+    travel = float(numbers.get("travel", 0.0))
+    low = place + travel if travel < 0 else min(float(numbers.get("lower", joint.lower)), place)
+    high = place + travel if travel > 0 else max(float(numbers.get("upper", joint.upper)), place)
+    return max(low, joint.lower), min(high, joint.upper)
+
+
+def _recovered(arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, rows: str | Task, what: str) -> Feasibility:
+    """By a motion from where the arm is, or a proof that there is none."""
+    found = recover(arm, left, at, goal=goal, task=rows, samples=0, clearance=False)
+    if found.ok:
+        return Feasibility("yes", f"a motion to the goal was found {what}", np.asarray(found.q[-1]))
+    if found.verdict.answer == "proved infeasible":
+        return Feasibility("no", f"{what} it is proved: {found.verdict.why}")
+    return Feasibility("not found", f"no motion to the goal was found {what}: {found.verdict.why}")
 
 
 def _carried(arm: Arm, goal: Array, task: str | Task, gains: Mapping[str, float]) -> Feasibility:

@@ -109,10 +109,14 @@ class FaultInjector:
         if isinstance(given, Faults):
             self.events = given.draw(self.joints, episode=episode, horizon=self.horizon)
         else:
+            wrong = next((x for x in given if not isinstance(x, FaultEvent)), None)
+            if wrong is not None:
+                raise InputError(f"one of the faults is {wrong!r}; give a holdfast.faults.Faults, or FaultEvents")
             self.events = FaultEvents(given)
         for event in self.events:
             self._check(event)
         self._active: list[_Active] = []
+        self._brakes: list[_Active] = []
         self.applied, self.time = {}, -math.inf
         self._noise = np.random.default_rng(int(self.events.id[:16], 16))
         self._look()
@@ -128,6 +132,11 @@ class FaultInjector:
         return self._motors.of(self.joints.index(joint))
 
     @property
+    def dofs(self) -> NDArray[np.int64]:
+        """(n,) numbers of the joints' degrees of freedom in the model."""
+        return np.asarray(self._dofs)
+
+    @property
     def places(self) -> dict[FaultEvent, float]:
         """Where the joints of the active events were when these began, rad or m."""
         return {one.event: one.place for one in self._active}
@@ -136,6 +145,15 @@ class FaultInjector:
     def active(self) -> FaultEvents:
         """The events that are there now."""
         return FaultEvents(one.event for one in self._active)
+
+    def brake(self, joint: str) -> None:
+        """Let the brake of a joint stop it where it is, at once and until the next reset; no fault, and not in ``active``."""
+        j = self.joints.index(joint)
+        event = FaultEvent("locked", joint, self.time)
+        one = _Active(event, j, float(self.data.qpos[self._qpos[j]]), self.time)
+        self._stop(one)
+        self._brakes.append(one)
+        self._apply()
 
     def before_step(self, time: float) -> None:
         """Let begin and end what does so by a time, s, and do what a fault does at every step."""
@@ -232,7 +250,7 @@ class FaultInjector:
     def _apply(self) -> None:
         """The model as it was, with all that is there now."""
         self.restore()
-        for one in self._active:
+        for one in (*self._active, *self._brakes):
             self._put(one)
         self._look()
 
@@ -287,7 +305,8 @@ class FaultInjector:
         velocity = self.data.qvel
         if not velocity.any() or (self.model.neq and self.data.eq_active.any()):
             return
-        held = {self._dofs[a.joint] for a in self._active if a.event.kind in _HOLDS and not a.pending}
+        still = (*self._active, *self._brakes)
+        held = {self._dofs[a.joint] for a in still if a.event.kind in _HOLDS and not a.pending}
         dofs = sorted(held | {self._dofs[one.joint]})
         self._mujoco.mj_forward(self.model, self.data)
         units = np.zeros((len(dofs), self.model.nv))

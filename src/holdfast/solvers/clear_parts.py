@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 FINEST = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
+_STRAYED = 0.25  # of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it
 _BENT = 1.1  # a curve is longer than the straight piece between two of its points by less than this
 
 
@@ -65,7 +66,11 @@ class Clear:
             open_ = np.flatnonzero(~proved & (clear[1:] | clear[:-1]) & (most.max(axis=1) >= FINEST))
             if not open_.size:
                 break
-            middle, on, _ = tracer.corrected((q[open_] + q[open_ + 1]) / 2, np.broadcast_to(pose, (open_.size, 4, 4)))
+            piece, between_ends = q[open_ + 1] - q[open_], (q[open_] + q[open_ + 1]) / 2
+            middle, on, _ = tracer.corrected(between_ends, np.broadcast_to(pose, (open_.size, 4, 4)))
+            # Near a singular configuration it may land anywhere, and halves would not get shorter.
+            on &= np.linalg.norm(middle - between_ends, axis=1) <= _STRAYED * np.linalg.norm(piece, axis=1)
+            middle[~on] = between_ends[~on]
             between = self.gaps(middle)
             between[~on] = -np.inf
             q = np.insert(q, open_ + 1, middle, axis=0)

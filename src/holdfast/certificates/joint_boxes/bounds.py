@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -10,13 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.joint_boxes.halving import Halving, Test, need_room
+from holdfast.certificates.crew import Effort
+from holdfast.certificates.joint_boxes.halving import Test, need_room
+from holdfast.certificates.joint_boxes.jobs import halved, summed
 from holdfast.certificates.joint_boxes.kernels import Floor
 from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.proof import Halved, early
 from holdfast.certificates.taylor import Chain
-from holdfast.certificates.tree import Tell
+from holdfast.certificates.tree import UNDECIDED
 from holdfast.indices import relative_manipulability
 
 Array = NDArray[np.float64]
@@ -59,20 +60,18 @@ class ManipulabilityBound(Halved):
         ]
 
 
-def bounded(
-    claim: BoundClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell
-) -> ManipulabilityBound:
+def bounded(claim: BoundClaim, halvings: int, seed: int, effort: Effort) -> ManipulabilityBound:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()
     extreme, value = _extreme(claim, np.random.default_rng(seed))
-    tree, finished, chain = Halving(claim.joint_box, halvings), True, Chain.of(claim.arm)
+    tree, chain = summed(bytes([UNDECIDED]), claim.arm.n, 1, True), Chain.of(claim.arm)
     test: Test = Ceiling(chain, claim.locks, claim.threshold)
     if claim.kind == "floor":
         test = Floor(chain, _ROWS[claim.task], claim.locks, claim.threshold)
     if _sign(claim) * (value - claim.threshold) <= 0:
         advice = f"a smaller box, or a threshold farther from {value:.4g}, which occurs, takes fewer"
         need_room(test, claim.joint_box, halvings, seed, advice)
-        finished = tree.run(test, until, stop, tell)
+        tree = halved(test, claim.joint_box, halvings, effort)
     seconds = perf_counter() - began
     return ManipulabilityBound(
         claim=claim,
@@ -81,8 +80,8 @@ def bounded(
         extreme=extreme,
         value=value,
         leaves=tree.leaves,
-        nodes=tree.tested,
-        finished=finished,
+        nodes=tree.nodes,
+        finished=tree.finished,
         seconds=seconds,
         document=documents.bound(claim, tree, extreme, seconds=seconds),
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -11,9 +10,9 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
+from holdfast.certificates.crew import Effort
 from holdfast.certificates.joint_boxes.exclusion import exclude
 from holdfast.certificates.proof import Halved, early
-from holdfast.certificates.tree import Tell
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,10 +47,10 @@ class Refutation(Halved):
         ]
 
 
-def refuted(claim: OutOfReachClaim, halvings: int, seed: int, until: float, stop: Callable[[], bool], tell: Tell) -> Refutation:
+def refuted(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) -> Refutation:
     """What the search finds, as :func:`holdfast.certify` is asked."""
     began = perf_counter()
-    found = exclude(claim, halvings, seed, until, stop, tell)
+    found = exclude(claim, halvings, seed, effort)
     seconds = perf_counter() - began
     return Refutation(
         claim=claim,

@@ -6,7 +6,7 @@ before by a search that was stopped.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -17,12 +17,12 @@ from holdfast.certificates import verifier
 from holdfast.certificates.claims import ReachClaim
 from holdfast.certificates.target_boxes.search import Search
 from holdfast.certificates.taylor import Reach
-from holdfast.certificates.tree import SPLIT, SearchState, undecided
+from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, undecided
+from holdfast.engine.memory import Parts
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Parts = dict[str, NDArray[np.generic]]
 Stop = Callable[[], bool]
 
 _LARGE, _JOB = 1 << 16, 1 << 14  # cells: of a part that is cut, and of each job of it
@@ -69,7 +69,9 @@ class Found:
 
     @property
     def state(self) -> SearchState:
-        """Of a search that has ended."""
+        """Of a search that has ended; of one that is cut nothing, as its boxes have states of their own."""
+        if self.cut:
+            return SearchState(proved=0.0, undecided=0.0, open=1.0, nodes=0)
         rest = float(undecided(self.tree))
         return SearchState(proved=1 - rest, undecided=rest, open=0.0, nodes=self.nodes)
 
@@ -78,13 +80,6 @@ class Found:
         counts = np.array([self.nodes, *self.cut], dtype=np.int64)
         tree = np.frombuffer(self.tree, dtype=np.uint8)
         return {"tree": tree, "centres": self.centres, "counts": counts, "times": np.array([self.seconds, self.cells])}
-
-    @classmethod
-    def read(cls, parts: Parts) -> Found:
-        """What :meth:`stored` kept: only what is finished is."""
-        tree, counts = parts["tree"].astype(np.uint8).tobytes(), [int(x) for x in parts["counts"]]
-        seconds, cells = (float(x) for x in parts["times"])
-        return cls(tree, parts["centres"].astype(np.int64), counts[0], True, seconds, tuple(counts[1:]), cells)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,9 +112,35 @@ class Job:
         """Of the part."""
         return 0.5 ** len(self.cut)
 
-    def parted(self, axes: tuple[int, ...]) -> list[Job]:
-        """The jobs of the boxes that halving along axes gives, in the order of a tree."""
-        return [Job(self.claim, self.halvings, self.seed, self.part, axes, k) for k in range(1 << len(axes))]
+    def nothing(self) -> Found:
+        """Undecided."""
+        return Found(bytes([UNDECIDED]), np.empty((0, self.claim.arm.n), dtype=np.int64), 0, False, 0.0)
+
+    def read(self, stored: Parts) -> Found:
+        """What :meth:`Found.stored` kept."""
+        tree, counts = stored["tree"].astype(np.uint8).tobytes(), [int(x) for x in stored["counts"]]
+        seconds, cells = (float(x) for x in stored["times"])
+        return Found(tree, stored["centres"].astype(np.int64), counts[0], True, seconds, tuple(counts[1:]), cells)
+
+    def parted(self, found: Found) -> list[Job]:
+        """The jobs of the boxes of one that is cut, in the order of a tree."""
+        count = 1 << len(found.cut) if found.cut else 0
+        return [Job(self.claim, self.halvings, self.seed, self.part, found.cut, k) for k in range(count)]
+
+    def joined(self, found: Found, parts: Sequence[Found]) -> Found:
+        """Of what is cut, what the jobs of its boxes found."""
+        if not found.cut:
+            return found
+        trees = [one.tree for one in parts]
+        for axis in reversed(found.cut):
+            trees = [bytes([SPLIT + axis]) + low + high for low, high in zip(trees[::2], trees[1::2], strict=True)]
+        return Found(
+            trees[0],
+            np.concatenate([one.centres for one in parts]),
+            sum(one.nodes for one in parts),
+            all(one.finished for one in parts),
+            sum(one.seconds for one in parts),
+        )
 
     def _box(self) -> tuple[Array, Index]:
         """(A, 2) its box, and (A,) how often each axis was halved."""
@@ -142,19 +163,19 @@ class Running:
 
     Attributes:
         job: Which.
-        finished: The smallest cells were reached, or it is cut.
+        finished: The smallest cells were reached, or it is cut, or to be refused.
     """
 
     def __init__(self, job: Job, box: Array, depth: Index, until: float) -> None:
         began, claim = perf_counter(), job.claim
-        self.job, self.finished = job, False
+        self.job, self.finished, self._seconds = job, False, 0.0
         reach = Reach(claim.arm, claim.task, claim.locked, claim.limits, claim.rotation, claim.angle)
         seed = job.seed if not job.cut else [job.seed, job.number, *job.cut]
         self._search = Search(reach, box, job.halvings - depth, seed, until)
         self._cells, self._cut = 0.0 if job.cut else self._search.pool.cells, tuple[int, ...]()
         if _LARGE < self._cells <= verifier.MOST_LEAVES:
             self._cut = self._search.pool.cut(int(np.ceil(np.log2(self._cells / _JOB))), job.halvings)
-            self.finished = bool(self._cut)
+        self.finished = bool(self._cut) or self.found().too_many
         self._seconds = perf_counter() - began
 
     def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
@@ -175,17 +196,3 @@ class Running:
         tree, centres = self._search.tree.in_order()
         rows = np.array(centres, dtype=np.int64).reshape(-1, self.job.claim.arm.n)
         return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells)
-
-
-def joined(found: list[Found], axes: tuple[int, ...]) -> Found:
-    """Of a part, from what the jobs of its boxes found, in their order."""
-    trees = [one.tree for one in found]
-    for axis in reversed(axes):
-        trees = [bytes([SPLIT + axis]) + low + high for low, high in zip(trees[::2], trees[1::2], strict=True)]
-    return Found(
-        trees[0],
-        np.concatenate([one.centres for one in found]),
-        sum(one.nodes for one in found),
-        all(one.finished for one in found),
-        sum(one.seconds for one in found),
-    )

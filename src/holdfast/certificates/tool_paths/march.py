@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import pairwise
 from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tool_paths.forms import SEGMENT, Cells, Following, Forms
+from holdfast.certificates.tool_paths.forms import SEGMENT, UNIT, Cells, Following, Forms
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -29,7 +28,7 @@ class Slab:
         begin, stop: Instants in one segment.
         halvings: That made it.
         ends: Of its cells, in order.
-        centres: (n,) of each, rad.
+        centres: (n,) of each, in units of the file; 0 of joints that are not free.
         step: Of the next cell.
     """
 
@@ -37,8 +36,13 @@ class Slab:
     stop: int
     halvings: int = 0
     ends: list[int] = field(default_factory=list)
-    centres: list[Array] = field(default_factory=list)
+    centres: list[Ints] = field(default_factory=list)
     step: int = 0
+
+    @property
+    def anew(self) -> Slab:
+        """Without what is found, the first cell as long as it."""
+        return Slab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
 
     @property
     def at(self) -> int:
@@ -98,9 +102,9 @@ class March:
 
     Args:
         following: The locked arm and the path.
-        during: Of the lock instants, the first and last.
+        slabs: Of lock instants.
         halvings: Of slabs, at most.
-        glue: Whether cells must go on with each other. Without, what exists may be no motion.
+        most: Cells that are looked at before no more slabs begin.
 
     Attributes:
         proved: Slabs, in no order.
@@ -108,33 +112,36 @@ class March:
         closed: Instants of slabs that are done with.
     """
 
-    def __init__(self, following: Following, during: tuple[int, int], halvings: int, *, glue: bool = True) -> None:
-        self.following, self._halvings, self._glue = following, halvings, glue
+    def __init__(self, following: Following, slabs: Sequence[Slab], halvings: int, most: float = np.inf) -> None:
+        self.following, self._halvings, self._most = following, halvings, most
         self._end = (len(following.knots) - 1) * SEGMENT
         self.proved: list[Slab] = []
         self.nodes, self.closed = 0, 0
-        first, last = during
-        faces = [first, *range((first // SEGMENT + 1) * SEGMENT, last, SEGMENT), last]
-        self._waiting = deque(Slab(a, b, step=b - a) for a, b in pairwise(faces))
+        self._waiting = deque(slab.anew for slab in slabs)
         self._moving: list[Slab] = []
         self._failed: list[Slab] = []
         self._before: Forms | None = None
 
     def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> bool:
-        """On with it until it is time (``monotonic``), or to stop; whether nothing is left to do."""
-        while self.open and monotonic() < until and not stop():
+        """On with it until it is time (``monotonic``), or to stop; whether only slabs that have not begun are left."""
+        while (self._moving or self._waiting or self._failed) and monotonic() < until and not stop():
             if not (self._moving or self._waiting):
                 self._halved()
-            self._filled()
+            if self.nodes < self._most:
+                self._filled()
+            elif not self._moving:
+                break
             if self._moving:
                 self._moved()
             tell()
-        return not self.open
+        if self._failed and not self._moving and self.nodes >= self._most:
+            self._halved()
+        return not (self._moving or self._failed or (self._waiting and self.nodes < self._most))
 
     @property
-    def open(self) -> bool:
-        """Whether something is left to do."""
-        return bool(self._moving or self._waiting or self._failed)
+    def left(self) -> list[Slab]:
+        """Slabs that have not begun, in order."""
+        return sorted(self._waiting, key=lambda slab: slab.begin)
 
     def _filled(self) -> None:
         """Slabs that wait begin where there is room."""
@@ -160,14 +167,16 @@ class March:
         q = f.guessed(before, cells, middle)
         q[first] = f.healthy(cells.start + cells.end, cells.end)[0][first]
         q = f.solved(q, cells)
+        rows = np.round(q / UNIT).astype(np.int64)
+        rows[:, f.still] = 0
         forms = f.forms(q, cells)
         self.nodes += len(slabs)
-        goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms) if self._glue else True)
+        goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms))
         good, kept = forms.good & goes_on, []
         for k, slab in enumerate(slabs):
             if good[k]:
                 slab.ends.append(slab.next)
-                slab.centres.append(q[k])
+                slab.centres.append(rows[k])
                 if slab.at == self._end:
                     self.proved.append(slab)
                     self.closed += slab.stop - slab.begin

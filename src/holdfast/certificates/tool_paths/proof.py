@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
-from time import monotonic, perf_counter
 from typing import Any
 
 import numpy as np
@@ -15,17 +13,14 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ROWS
+from holdfast.certificates.crew import Effort
 from holdfast.certificates.proof import InParts, early, written
-from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.forms import Following
-from holdfast.certificates.tool_paths.march import LockedPath, March
-from holdfast.certificates.tree import SearchState, Tell
+from holdfast.certificates.tool_paths.jobs import Job
+from holdfast.certificates.tool_paths.march import LockedPath
 
 Array = NDArray[np.float64]
 Span = tuple[int, int]
-
-_SLICE = 2.0  # s on a lock, then on the next, so that one that is stopped has something of each
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,49 +69,18 @@ class PathProof(InParts):
         ]
 
 
-class _Lock:
-    """The search for one lock."""
-
-    def __init__(self, claim: PathClaim, chain: Chain, joint: int, halvings: int) -> None:
-        rows = ROWS[claim.task]
-        self.joint, self.followers = joint, _followers(claim, joint, rows)
-        tube = np.repeat(claim.tube, [min(3, rows), max(0, rows - 3)]) if claim.tube.any() else np.empty(0)
-        limits = np.column_stack([claim.arm.lower, claim.arm.upper])
-        following = Following(chain, claim.knots, rows, [joint, *self.followers], tube, limits)
-        self.march, self.finished, self._seconds = March(following, claim.during, halvings), False, 0.0
-
-    def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> None:
-        """On with it until it is time (``monotonic``), or to stop."""
-        began = perf_counter()
-        self.finished = self.march.run(until, stop, tell)
-        self._seconds += perf_counter() - began
-
-    def found(self, during: Span) -> LockedPath:
-        """What is proved so far."""
-        slabs = tuple(sorted(self.march.proved, key=lambda slab: slab.begin))
-        proved = Fraction(sum(slab.stop - slab.begin for slab in slabs), during[1] - during[0])
-        return LockedPath(
-            joint=self.joint, followers=self.followers, slabs=slabs, proved=proved, nodes=self.march.nodes,
-            finished=self.finished, seconds=self._seconds,
-        )  # fmt: skip
-
-
-def proved(claim: PathClaim, halvings: int, end: float, stop: Callable[[], bool], tell: Tell) -> PathProof:
-    """As much of a claim as can be proved until it is time (``monotonic``), or to stop."""
-    chain, whole = Chain.of(claim.arm), claim.during[1] - claim.during[0]
-    locks = [_Lock(claim, chain, joint, halvings) for joint in claim.locks]
-
-    def told() -> None:
-        done = sum(slab.stop - slab.begin for lock in locks for slab in lock.march.proved) / (whole * len(locks))
-        closed = sum(lock.march.closed for lock in locks) / (whole * len(locks))
-        nodes = sum(lock.march.nodes for lock in locks)
-        tell(SearchState(proved=done, undecided=closed - done, open=1 - closed, nodes=nodes))
-
-    while (left := [lock for lock in locks if not lock.finished]) and monotonic() < end and not stop():
-        for count, lock in zip(range(len(left), 0, -1), left, strict=True):
-            now = monotonic()
-            lock.run(now + min((end - now) / count, _SLICE), stop, told)
-    parts = tuple(lock.found(claim.during) for lock in locks)
+def proved(claim: PathClaim, halvings: int, effort: Effort) -> PathProof:
+    """As much of a claim as can be proved."""
+    rows, whole = ROWS[claim.task], claim.during[1] - claim.during[0]
+    jobs = [Job.whole(claim, joint, _followers(claim, joint, rows), halvings) for joint in claim.locks]
+    parts = tuple(
+        LockedPath(
+            joint=job.joint, followers=job.followers, slabs=tuple(found.slabs),
+            proved=Fraction(sum(slab.stop - slab.begin for slab in found.slabs), whole), nodes=found.nodes,
+            finished=found.finished, seconds=found.seconds,
+        )
+        for job, found in zip(jobs, effort.found(jobs), strict=True)
+    )  # fmt: skip
     return PathProof(claim=claim, parts=parts, document=documents.path(claim, parts))
 
 

@@ -30,6 +30,15 @@ def command(
     arm: Annotated[
         Path | None, typer.Option("--arm", help="Write a revolute arm that attains the best known value.", show_default=False)
     ] = None,
+    lever: Annotated[
+        float | None,
+        typer.Option(
+            "--singular-value",
+            metavar="LEVER",
+            help="Of the least singular value instead, for a mean lever of the joints, m (for a pose in lengths, or inf).",
+            show_default=False,
+        ),
+    ] = None,
     seed: SeedOption = 0,
     json_: JsonOption = False,
 ) -> None:
@@ -44,6 +53,10 @@ def command(
         return
     if joints is None or rows is None:
         raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
+    if lever is not None:
+        mixed = rows in ("pose", "pointing", "planar-pose")
+        printed(hf.ceilings.singular_value(n=joints, m=_rows(rows), k=failures, lever=lever, angular=mixed), json_)
+        return
     found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
     if arm is not None:
         made = hf.designs.synthesise(found, task=_task(rows, found.m), seed=seed)

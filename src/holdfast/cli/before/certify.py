@@ -108,6 +108,8 @@ def out_of_reach(
     degrees: AnglesOption = False,
     halvings: Annotated[int, typer.Option("--halvings", help="Of each joint and axis of the box, at most.")] = 16,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -119,7 +121,7 @@ def out_of_reach(
     """Prove that no point of a box is reached, healthy or wherever one joint locks in an interval.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 4 if a configuration is found whose tool is in the box, 1
-    if the check rejects something. Ctrl-C writes what is proved so far.
+    if the check rejects something. Ctrl-C writes what is proved so far; with --store the same command resumes.
 
     Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
     """
@@ -131,7 +133,8 @@ def out_of_reach(
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
-    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, None, **how)
 
 
 @command.command()
@@ -203,6 +206,8 @@ def ceiling(
     failures: FailuresOption = "single",
     halvings: JointHalvingsOption = 16,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -215,7 +220,7 @@ def ceiling(
 
     The best configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something is
     undecided, 4 if that configuration is above the threshold, 1 if the check rejects something. Ctrl-C writes what is proved
-    so far.
+    so far; with --store the same command resumes.
 
     Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
     """
@@ -227,7 +232,8 @@ def ceiling(
         failures=read_failures(model, failures),
         task=task,
     )
-    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, None, **how)
 
 
 @command.command()
@@ -242,6 +248,8 @@ def floor(
     failures: FailuresOption = "single",
     halvings: JointHalvingsOption = 16,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -254,7 +262,7 @@ def floor(
 
     The worst configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something
     is undecided, 4 if that configuration is below the threshold, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far.
+    proved so far; with --store the same command resumes.
 
     Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
     """
@@ -266,7 +274,8 @@ def floor(
         failures=read_failures(model, failures),
         task=task,
     )
-    proved(claim, out, check, json_, halvings=halvings, time_limit=time_limit, seed=seed)
+    how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
+    proved(claim, out, check, json_, None, **how)
 
 
 command.command()(path)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import CertificateOption, CheckOption, TimeOption
+from holdfast.cli.certify_options import CertificateOption, CheckOption, StoreOption, TimeOption, WorkersOption
 from holdfast.cli.certify_search import proved
 from holdfast.cli.options import (
     ArmArgument,
@@ -41,6 +41,8 @@ def path(
     ] = None,
     halvings: Annotated[int, typer.Option("--halvings", help="Of intervals of lock instants, at most.")] = 6,
     time_limit: TimeOption = None,
+    workers: WorkersOption = 1,
+    store: StoreOption = None,
     check: CheckOption = True,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -53,7 +55,7 @@ def path(
 
     The motion is a table of the healthy arm's configurations, such as follow writes; between them joints move along straight
     lines. The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes
-    what is proved so far.
+    what is proved so far; with --store the same command resumes.
 
     Example: holdfast certify path planar-3r motion.csv --task planar --tube 0.0005
     """
@@ -69,4 +71,5 @@ def path(
         task=task,
         segments=segments,
     )
-    proved(claim, out, check, json_, plot, halvings=halvings, time_limit=time_limit)
+    how = {"halvings": halvings, "time_limit": time_limit, "workers": workers, "store": store}
+    proved(claim, out, check, json_, plot, **how)

@@ -47,8 +47,9 @@ def command(
         str,
         typer.Option(
             "--maximise",
-            help="What to maximise: an index, of which a quantile over the region counts; or convergence, how often the "
-            "arm reaches its target after a lock that its controller does not know of.",
+            help="What to maximise: an index, of which a quantile over the region counts; convergence, how often the "
+            "arm reaches its target after a lock that its controller does not know of; self-motion-size, how far all joints "
+            "turn on one self-motion; or tolerant-workspace, the area that a planar arm keeps whatever joint locks.",
         ),
     ] = "relative-manipulability",
     law: Annotated[
@@ -56,7 +57,8 @@ def command(
         typer.Option("--law", help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.", show_default=False),
     ] = None,
     keep_reach: Annotated[
-        bool, typer.Option("--keep-reach", help="With --maximise convergence: link lengths keep their sum.")
+        bool,
+        typer.Option("--keep-reach", help="With --maximise convergence or tolerant-workspace: link lengths keep their sum."),
     ] = False,
     region: Annotated[
         Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
@@ -102,8 +104,14 @@ def command(
         if maximise == "convergence":
             chosen = LAWS.make(law or "pseudoinverse", given, option="--law", task=rows)
             found = hf.design_for_convergence(chosen, space, keep_reach=keep_reach, **common)
+        elif maximise == "tolerant-workspace" and law is None:
+            found = hf.designs.design_for_workspace(given, space, keep_reach=keep_reach, seed=seed)
+        elif maximise == "self-motion-size" and law is None and not keep_reach:
+            found = hf.designs.design_for_self_motion(given, space, task=rows, seed=seed)
         elif law is not None or keep_reach:
-            raise InputError("--law and --keep-reach belong to --maximise convergence; leave them out")
+            raise InputError(
+                "--law belongs to --maximise convergence, --keep-reach to that and to tolerant-workspace; leave them out"
+            )
         else:
             common |= {"level": level, "failures": read_failures(given, failures), "length": length}
             place = read_region(region, arm, given)

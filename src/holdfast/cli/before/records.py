@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -21,21 +22,32 @@ NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a rec
 
 
 @command.command("list")
-def list_(json_: JsonOption = False) -> None:
+def list_(
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for a page with pictures, and each record as YAML and URDF.", show_default=False),
+    ] = None,
+    json_: JsonOption = False,
+) -> None:
     """List all records, with what no arm can beat.
 
     Example: holdfast records list
     """
-    printed(hf.designs.records(), json_)
+    book = hf.designs.records()
+    printed(book, json_, [] if out is None else book.save(out)[-1:])
 
 
 @command.command()
-def show(record: NameArgument) -> None:
+def show(
+    record: NameArgument,
+    urdf: Annotated[bool, typer.Option("--urdf", help="Its arm as URDF, for simulators, instead.")] = False,
+) -> None:
     """Show a record as the file that it is; a submission is such a file.
 
     Example: holdfast records show pose-9R-k2-001
     """
-    typer.echo(hf.designs.record(record).text, nl=False)
+    found = hf.designs.record(record)
+    typer.echo(found.urdf() if urdf else found.text, nl=False)
 
 
 @command.command()

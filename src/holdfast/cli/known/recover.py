@@ -30,7 +30,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
-from holdfast.grammar import is_number
+from holdfast.grammar import is_number, measures
 from holdfast.present.printing import console
 from holdfast.present.results import printed, said
 
@@ -88,6 +88,14 @@ def command(
     time_limit: Annotated[
         float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.", show_default=False)
     ] = None,
+    tolerance: Annotated[
+        str | None,
+        typer.Option(
+            "--tolerance",
+            help="By which each row may be missed without harm, for example 1mm,0.5deg: proofs are tried for that too.",
+            show_default=False,
+        ),
+    ] = None,
     accelerations: Annotated[
         str | None,
         typer.Option(
@@ -111,6 +119,14 @@ def command(
     out: Annotated[
         Path | None,
         typer.Option("--out", help="Folder for report.html, recovery.json, waypoints.csv and pictures.", show_default=False),
+    ] = None,
+    certificate: Annotated[
+        Path | None,
+        typer.Option(
+            "--certificate",
+            help="Write the proof that the goal has no configuration to this file, for holdfast certificate check.",
+            show_default=False,
+        ),
     ] = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.", show_default=False)] = None,
     base: BaseOption = None,
@@ -167,11 +183,14 @@ def command(
         starts=starts,
         tries=tries,
         time_limit=time_limit,
+        tolerance=None if tolerance is None else tuple(measures("--tolerance", tolerance)),  # type: ignore[arg-type]
         accelerations=most,
         period=period,
         seed=seed,
     )
     files = [result.to_csv(csv)] if csv is not None and len(result.q) else []
+    if certificate is not None and not result.ok:
+        files.append(result.certificate().write(certificate))
     if out is not None:
         files += result.save(out, command=said())
     printed(result, json_, files)

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+import holdfast as hf
 from holdfast.cli.laws import LawOption, law_of
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TaskOption, TipOption
 from holdfast.errors import InputError
@@ -24,6 +25,12 @@ def command(
         str | None, typer.Option("--name", help="Name of the function and the files. Default: the law's.", show_default=False)
     ] = None,
     task: TaskOption = None,
+    monitor: Annotated[
+        Path | None,
+        typer.Option(
+            "--monitor", help="Bounds of calibrate: also a monitor of joint faults, NAME_monitor.", show_default=False
+        ),
+    ] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -35,4 +42,10 @@ def command(
     """
     if language not in LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
-    printed(law_of(law, arm, task, base, tip, hold).export_c(out, name), json_)
+    chosen = law_of(law, arm, task, base, tip, hold)
+    files = chosen.export_c(out, name)
+    watching: list[Path] = []
+    if monitor is not None:
+        bounds = hf.diagnosis.load(monitor)
+        watching += hf.diagnosis.export_c(chosen.arm, bounds, out, name=f"{files.source.stem}_monitor")
+    printed(files, json_, watching, listed=monitor is not None)

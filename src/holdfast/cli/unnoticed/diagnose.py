@@ -14,12 +14,14 @@ from holdfast.present.results import drawn, printed
 ArmOption = Annotated[
     str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
 ]
+LatencyOption = Annotated[float, typer.Option("--latency", help="By which the tool's pose is recorded late, s.")]
 
 
 def command(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz or .csv).", show_default=False)],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).", show_default=False)],
     arm: ArmOption,
     bounds: Annotated[Path, typer.Option("--bounds", help="File that calibrate wrote.", show_default=False)],
+    latency: LatencyOption = 0.0,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -34,7 +36,7 @@ def command(
     Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
     """
     model = read_arm(arm, base, tip, hold)
-    found = hf.diagnosis.diagnose(model, hf.faults.Log.load(log), hf.diagnosis.load(bounds))
+    found = hf.diagnosis.diagnose(model, hf.faults.Log.load(log, latency=latency), hf.diagnosis.load(bounds))
     printed(found, json_, drawn(found, plot, out))
     if found.verdict.alarm:
         raise typer.Exit(NOT_MET)

@@ -62,6 +62,19 @@ def command(
     servo_bandwidth: Annotated[
         float, typer.Option("--servo-bandwidth", help="With --physics: bandwidth of the joint servos, Hz.")
     ] = 10.0,
+    faults: Annotated[
+        Path | None,
+        typer.Option("--faults", help="Faults file (YAML): what fails when is drawn from it.", show_default=False),
+    ] = None,
+    episode: Annotated[int, typer.Option("--episode", help="With --faults: which episode is drawn, from 0.")] = 0,
+    notice: Annotated[
+        Path | None,
+        typer.Option(
+            "--notice",
+            help="With --physics --faults: bounds that calibrate wrote; a monitor names the joint, and the controller reacts.",
+            show_default=False,
+        ),
+    ] = None,
     cell: TouchedCellOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
@@ -89,6 +102,28 @@ def command(
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
+    drawn_faults = None if faults is None else hf.faults.load(faults)
+    if drawn_faults is not None and physics:
+        _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--cell": cell})
+        watch = None if notice is None else hf.diagnosis.Monitor(made.arm, hf.diagnosis.load(notice))
+        found = hf.simulate_faults(
+            made,
+            q0,
+            goal,
+            faults=drawn_faults,
+            episode=episode,
+            monitor=watch,
+            time_limit=12.0 if time_limit is None else time_limit,
+            servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if watch is None else watch.bounds.rate),
+        )
+        printed(found, json_, drawn(found, plot, out) + ([] if csv is None else [found.to_csv(csv)]))
+        return
+    if notice is not None:
+        raise InputError("--notice watches an arm with bodies and motors; add --physics and --faults")
+    if drawn_faults is not None:
+        _refuse({"--lock": lock, "--failure": failure})
+        named = drawn_faults.draw(made.arm, episode=episode).locks()
+        joints, times = tuple(made.arm.joint_index(name) for name in named), tuple(named.values())
     touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
     if stop_at_contact and touched is None:
         raise InputError("--stop-at-contact has nothing to stop at; add --cell")
@@ -103,6 +138,12 @@ def command(
         result = hf.simulate_physics(made, q0, goal, servos=servos, **alike)
     files = drawn(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
     printed(result, json_, files)
+
+
+def _refuse(others: dict[str, object]) -> None:
+    given = next((name for name, value in others.items() if value), None)
+    if given is not None:
+        raise InputError(f"{given} does not go with --faults, which says what fails; leave one of them out")
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:

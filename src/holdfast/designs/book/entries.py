@@ -13,6 +13,7 @@ from pydantic import Field, ValidationError
 
 from holdfast.arm.model import Arm
 from holdfast.arms import dh_file
+from holdfast.arms.urdf_writing import urdf_text
 from holdfast.ceilings.ceiling import Ceiling, look_up, table
 from holdfast.designs.book.measuring import jacobian_of, least_left, null_space_of
 from holdfast.errors import InputError
@@ -103,6 +104,16 @@ class Record(Result):
     def arm(self) -> Arm | None:
         """Its arm; None for a null space alone."""
         return None if self.data.arm is None else dh_file.built(self.data.arm, Path(f"{self.id}.yaml"))
+
+    def urdf(self) -> str:
+        """Its arm as a URDF file.
+
+        Raises:
+            InputError: It is a null space alone.
+        """
+        if self.arm is None:
+            raise InputError(f"'{self.id}' is a null space alone; make an arm that has it: holdfast ceiling --arm")
+        return urdf_text(self.arm)
 
     @property
     def q(self) -> Array:

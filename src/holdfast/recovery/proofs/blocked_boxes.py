@@ -56,13 +56,14 @@ class BlockedBoxes:
         found = np.zeros(len(q), dtype=bool)
         some = np.flatnonzero(np.sort(half, axis=1)[:, half.shape[1] // 2] < _WIDEST)
         if self._own:
-            found[some] = self._by_itself(q[some], half[some])
+            found[some] = self.by_itself(q[some], half[some])
         if self._links.size and self._margins.size:
             some = some[~found[some]]
             found[some] = self._within_objects(q[some], half[some])
         return found
 
-    def _by_itself(self, q: Array, half: Array) -> Flags:
+    def by_itself(self, q: Array, half: Array) -> Flags:
+        """(N,) True where everything within ``half`` (N, n) of q (N, n) is blocked by the arm alone."""
         found, every = np.zeros(len(q), dtype=bool), self._alone.by_pair(q)
         for own in self._own:
             some = np.flatnonzero(~found & (every[:, own.columns].min(axis=1) < self._margin))

@@ -1,16 +1,19 @@
-"""That no motion leads to the goal: a flood over cells of the joints that still move, if these are few.
+"""That no motion leads to the goal: a flood over cells of the joints that still move, or of some of them.
 
 A cell is a box of joints. It is certainly blocked if a ball within a link, at its middle, is deeper in an object than it can
-move within the box, or if a row kept is broken by more than it can change. What is left may be free. If those of it that are
-joined to the start, by a corner at least, hold no configuration of the goal, nothing does; else they are halved. That the arm
-blocks itself is left aside, so a proof never rests on it.
+move within the box, if the same is true of two links, or if a row kept is broken by more than it can change. What is left may
+be free. If those of it that are joined to the start, by a corner at least, hold no configuration of the goal, no motion leads
+to it; else they are halved.
+
+Of many joints a few are enough where these alone decide what is blocked: an elbow that is caught between two objects, whatever
+the wrist does, or a gripper beside a forearm. The other joints are then anywhere within their limits.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import islice, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,8 +21,12 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
+from holdfast.caching import cached_property
 from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE
+from holdfast.clearance.clearance import Clearance
+from holdfast.enclosure.boxes import Blocked
+from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import Rows
 from holdfast.recovery.space import Space
 from holdfast.solvers import joint_space
@@ -30,6 +37,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Cells = NDArray[np.int64]
+Indices = NDArray[np.intp]
 Holds = Callable[[Array, Array], Flags]
 """Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
 
@@ -40,43 +48,142 @@ _SLACK = 1e-9  # m and rad: rounding
 _ROOT = 1e-7  # m: rounding of a square root where two squares cancel
 _BALLS = 24  # along a body
 _CHUNK = 4096
+_FEW, _TRIED = 2, 2  # of more joints: over how many of them a flood goes, and how often it is tried
 
 
 def disconnected(space: Space, start: Array, holds: Holds) -> str | None:
-    """A sentence that proves that no motion leads from a start (n,) to what ``holds`` knows; None if none could be proved."""
-    free = np.flatnonzero(space.free)
-    box = _box(space, free)
-    if box is None or len(free) > _JOINTS or (space.manifold is None and space.clearance is None):
+    """A sentence that proves that no motion leads from a start (n,) to what ``holds`` knows; None if none could be proved.
+
+    Of at most three joints that move; of more see :func:`confined`.
+    """
+    joints = np.flatnonzero(space.free)
+    if len(joints) > _JOINTS or (space.manifold is None and space.clearance is None):
         return None
-    blocked = _Blocked(space)
+    for flood in _floods(space, start, joints, _Blocked(space)):
+        if not holds(flood.middle, flood.half).any():
+            return flood.sentence
+    return None
+
+
+def confined(space: Space, start: Array, known: Array) -> Iterator[Flood]:
+    """Floods over one or two of more than three joints that move, where the arm itself keeps them from getting anywhere.
+
+    Those that hold none of the configurations (K, n) that are known of the goal, at most two over the same joints.
+    """
+    if space.clearance is None or space.free.sum() <= _JOINTS:
+        return
+    itself = BlockedBoxes(space.clearance, space.margin, (space.low, space.high)).by_itself
+    for joints in _between_links(space.clearance, np.flatnonzero(space.free)):
+        floods = _floods(space, start, joints, itself)
+        yield from islice((flood for flood in floods if flood.misses(known, np.zeros_like(known)).all()), _TRIED)
+
+
+def _between_links(clearance: Clearance, joints: Indices) -> list[Indices]:
+    """Of these joints, those between two links that may touch each other, fewest first, where they are one or two."""
+    ends = {tuple(sorted(clearance.capsules.parts[k].link for k in pair)) for pair in clearance.pairs}
+    found = {tuple(joints[(joints > a) & (joints <= b)].tolist()) for a, b in ends}
+    return [np.array(some) for some in sorted(found, key=lambda some: (len(some), some)) if 0 < len(some) <= _FEW]
+
+
+@dataclass(frozen=True, eq=False)
+class Flood:
+    """Cells that may be joined to the start.
+
+    Attributes:
+        names: Of the joints of which they are cells.
+        joints, low, width: (f,) which these are, where the first cell begins, and its width, rad and m.
+        round_: (f,) which of them turn round and round.
+        count: Of cells, each way.
+        cells: (N, f) numbers of those that are joined.
+        middle, half: (N, n) and (n,), where they are, all joints.
+        looked_at: How many cells were looked at so far.
+    """
+
+    names: list[str]
+    joints: Indices
+    low: Array
+    width: Array
+    round_: Flags
+    count: int
+    cells: Cells
+    middle: Array
+    half: Array
+    looked_at: int
+
+    @property
+    def sentence(self) -> str:
+        """That they hold no configuration of the goal."""
+        return (
+            f"what {' and '.join(self.names)} can get to from the start holds no configuration of the goal, by a flood over "
+            f"{self.looked_at:,} cells of joints, up to {self.count} of each, up to floating point"
+        )
+
+    @cached_property
+    def _below(self) -> NDArray[np.int64]:
+        """How many joined cells have numbers below each corner of the grid."""
+        there = np.zeros((self.count + 1,) * self.cells.shape[1], dtype=np.int64)
+        there[tuple(self.cells.T + 1)] = 1
+        for axis in range(there.ndim):
+            there = there.cumsum(axis=axis)
+        return there
+
+    def misses(self, q: Array, half: Array) -> Flags:
+        """(N,) True where no configuration within ``half`` (N, n) of q (N, n) is in a joined cell."""
+        at, by = q[:, self.joints], half[:, self.joints]
+        at = np.where(self.round_, np.arctan2(np.sin(at), np.cos(at)), at)
+        first = np.floor((at - by - self.low - _SLACK) / self.width).astype(np.int64)
+        last = np.floor((at + by - self.low + _SLACK) / self.width).astype(np.int64) + 1
+        over = self.round_ & ((first < 0) | (last > self.count))  # past where a turn ends: anywhere
+        first = np.clip(np.where(over, 0, first), 0, self.count)
+        last = np.clip(np.where(over, self.count, last), 0, self.count)
+        total = np.zeros(len(q), dtype=np.int64)
+        for corner in product((0, 1), repeat=len(self.joints)):
+            sign = (-1) ** (len(corner) - sum(corner))
+            total += sign * self._below[tuple(np.where(corner, last, first).T)]
+        return total == 0
+
+
+def _floods(space: Space, start: Array, joints: Indices, blocked: Blocked) -> Iterator[Flood]:
+    """What is joined to a start (n,), cells halved again and again; the other joints anywhere within their limits."""
+    box = _box(space, joints)
+    if box is None:
+        return
     low, high, round_ = box
-    at = np.where(round_, np.arctan2(np.sin(start[free]), np.cos(start[free])), start[free])
+    at = np.where(round_, np.arctan2(np.sin(start[joints]), np.cos(start[joints])), start[joints])
     count, looked_at = _FIRST, 0
-    cells = np.array(list(product(range(count), repeat=len(free))), dtype=np.int64)
-    while looked_at + len(cells) <= _MOST[len(free)] and not space.spent:
-        half = np.zeros(space.arm.n)
-        half[free] = (high - low) / (2 * count)
-        middle = np.tile(start, (len(cells), 1))
-        middle[:, free] = low + (2 * cells + 1) * half[free]
+    cells = np.array(list(product(range(count), repeat=len(joints))), dtype=np.int64)
+    anywhere, half = (space.low + space.high) / 2, (space.high - space.low) / 2
+    while looked_at + len(cells) <= _MOST[len(joints)] and not space.spent:
+        half = half.copy()
+        half[joints] = (high - low) / (2 * count)
+        middle = np.tile(anywhere, (len(cells), 1))
+        middle[:, joints] = low + (2 * cells + 1) * half[joints]
         looked_at += len(cells)
-        open_ = ~np.concatenate([blocked(middle[i : i + _CHUNK], half) for i in range(0, len(cells), _CHUNK)])
+        open_ = ~np.concatenate(
+            [blocked(x, np.broadcast_to(half, x.shape)) for x in np.split(middle, range(_CHUNK, len(cells), _CHUNK))]
+        )
         cells, middle = cells[open_], middle[open_]
-        away = np.abs(middle[:, free] - at)
+        away = np.abs(middle[:, joints] - at)
         away = np.where(round_, np.minimum(away, 2 * np.pi - away), away)
-        begin = (away <= half[free] + _SLACK).all(axis=1)
+        begin = (away <= half[joints] + _SLACK).all(axis=1)
         if not begin.any():
-            return None  # the start is clear, so this cannot be
+            return  # the start is clear, so this cannot be
         joined = _flooded(cells, begin, count, round_)
         cells, middle = cells[joined], middle[joined]
-        if not holds(middle, half).any():
-            names = " and ".join(space.arm.joint_names[k] for k in free)
-            return (
-                f"what {names} can get to from the start holds no configuration of the goal, by a flood over {looked_at:,} "
-                f"cells of joints, up to {count} of each, up to floating point"
-            )
-        cells = (2 * cells[:, None] + np.array(list(product((0, 1), repeat=len(free))))).reshape(-1, len(free))
+        yield Flood(
+            [space.arm.joint_names[k] for k in joints],
+            joints,
+            low,
+            (high - low) / count,
+            round_,
+            count,
+            cells,
+            middle,
+            half,
+            looked_at,
+        )
+        cells = (2 * cells[:, None] + np.array(list(product((0, 1), repeat=len(joints))))).reshape(-1, len(joints))
         count *= 2
-    return None
 
 
 def holds_configuration(space: Space, q: Array) -> Holds:
@@ -116,7 +223,7 @@ def may_meet(space: Space, rows: Rows, poses: Array, tolerance: tuple[float, flo
     return holds
 
 
-def _box(space: Space, free: NDArray[np.intp]) -> tuple[Array, Array, Flags] | None:
+def _box(space: Space, free: Indices) -> tuple[Array, Array, Flags] | None:
     """Between what the free joints move, and which of them turn round and round; None where that is not known."""
     low, high = space.arm.lower[free], space.arm.upper[free]
     round_ = joint_space.turning(space.arm)[free]
@@ -207,12 +314,17 @@ class _Blocked:
             assert seen is not None
             apart = seen.apart[self._points.link + 1, k] if len(rows) else np.zeros(0, dtype=bool)
             self._objects += [(inner, seen.cell.margin_of(solid), apart) for inner in solids_within(solid)]
+        own = space.clearance
+        self._itself = None if own is None else BlockedBoxes(own, space.margin, (space.low, space.high))
 
-    def __call__(self, q: Array, half: Array) -> Flags:
-        """(N,) True where everything within ``half`` (n,) of q (N, n) is blocked."""
+    def __call__(self, q: Array, halves: Array) -> Flags:
+        """(N,) True where everything within ``halves`` (N, n), all rows the same, of q (N, n) is blocked."""
+        half = halves[0]
         space, found = self._space, np.zeros(len(q), dtype=bool)
         if space.manifold is not None:
             found |= (space.manifold.gaps(q) + space.manifold.changes(half[None]) < -_SLACK).any(axis=1)
+        if self._itself is not None:
+            found |= self._itself.by_itself(q, halves)
         if not self._objects or not len(self._radius):
             return found
         frames = space.arm.frames(q)

@@ -10,6 +10,7 @@ from holdfast.arm.task import Task, plane_normal
 from holdfast.clearance.clearance import Clearance
 from holdfast.enclosure import Configurations, Finding, all_configurations
 from holdfast.enclosure.box_bounds import Parts, idle
+from holdfast.enclosure.boxes import Blocked
 from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import Degraded
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
@@ -77,7 +78,7 @@ def listed(
     task: Task,
     pose: Array,
     seconds: float,
-    blocked: BlockedBoxes | None = None,
+    blocked: Blocked | None = None,
     tolerance: Tolerance = EXACT,
 ) -> Configurations | None:
     """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.

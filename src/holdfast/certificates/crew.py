@@ -7,19 +7,18 @@ import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from threading import Thread
 from time import monotonic
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
-from holdfast.certificates.claims import ReachClaim
-from holdfast.certificates.target_boxes.jobs import Found, Job, Running, joined
 from holdfast.certificates.tree import SearchState, Tell
-from holdfast.engine.memory import Memory
+from holdfast.engine.memory import Memory, Parts
 from holdfast.errors import HoldfastError
 
 _BEGIN = 4  # of the time limit, to begin with
@@ -28,25 +27,122 @@ _OFTEN = 0.2  # s between looks at what other processes tell
 Stop = Callable[[], bool]
 
 
-class Crew:
-    """The jobs of some claims, and what is known of them.
+class Found(Protocol):
+    """What a job found."""
 
-    Args:
-        claims: The parts.
-        halvings: Of each axis, at most.
-        seed: Of all random draws.
-        memory: Of a folder, or None.
+    @property
+    def finished(self) -> bool:
+        """Whether nothing is open, but for what is left to others."""
+
+    @property
+    def state(self) -> SearchState:
+        """What of it is proved and undecided, itself: what it leaves to other jobs is neither."""
+
+    def stored(self) -> Parts:
+        """As a memory keeps it."""
+
+    def need_room(self) -> None:
+        """Refuse what would take too many cells."""
+
+
+class Running(Protocol):
+    """A job at work."""
+
+    @property
+    def job(self) -> Job:
+        """Which."""
+
+    @property
+    def finished(self) -> bool:
+        """Whether nothing is open, but for what is left to others."""
+
+    @property
+    def state(self) -> SearchState:
+        """How far it is."""
+
+    def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
+        """On with it until it is time (``monotonic``), or to stop."""
+
+    def found(self) -> Found:
+        """What is found so far."""
+
+
+class Job(Protocol):
+    """A piece of a search. What it finds depends on it alone: not on processes, nor on what was found before."""
+
+    @property
+    def name(self) -> str:
+        """For a memory."""
+
+    @property
+    def share(self) -> float:
+        """Of its part, that its states are about."""
+
+    def begun(self, until: float) -> Running:
+        """At work, with time ``until`` (``monotonic``) to begin."""
+
+    def nothing(self) -> Found:
+        """What is found if nobody looks."""
+
+    def read(self, stored: Parts) -> Found:
+        """What was stored; only what is finished is."""
+
+    def parted(self, found: Any) -> Sequence[Job]:
+        """The jobs that it leaves to others."""
+
+    def joined(self, found: Any, parts: Sequence[Any]) -> Any:
+        """What it found, with what these found."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effort:
+    """How long, where and for whom one searches.
+
+    Attributes:
+        end: Until when (``monotonic``).
+        stop: Asked now and then; once it says True the rest is left.
         tell: Is told how far all is.
+        workers: Processes.
+        memory: Of a folder, or None.
     """
 
-    def __init__(
-        self, claims: Sequence[ReachClaim], halvings: int, seed: int, *, memory: Memory | None = None, tell: Tell
-    ) -> None:
-        self._tell, self._memory = tell, memory
-        self._whole = [Job(claim, halvings, seed, part) for part, claim in enumerate(claims)]
+    end: float = np.inf
+    stop: Stop = lambda: False
+    tell: Tell = lambda now: None
+    workers: int = 1
+    memory: Memory | None = None
+
+    def found(self, jobs: Sequence[Job], most: float = np.inf) -> list[Any]:
+        """Of each job, and those that it leaves to others, what is found; ends after so many cells that were looked at."""
+        crew = Crew(jobs, memory=self.memory, tell=self.tell)
+
+        def stop() -> bool:
+            return crew.nodes > most or self.stop()
+
+        if self.workers == 1:
+            crew.alone(self.end, stop)
+        else:
+            crew.together(self.workers, self.end, stop)
+        return [crew.found(job) for job in jobs]
+
+
+class Crew:
+    """The jobs of a search, and what is known of them.
+
+    Args:
+        jobs: One for each part of it; they may leave some of it to others.
+        memory: Of a folder, or None.
+        tell: Is told how far all is.
+
+    Attributes:
+        nodes: Cells that were looked at.
+    """
+
+    def __init__(self, jobs: Sequence[Job], *, memory: Memory | None = None, tell: Tell) -> None:
+        self._tell, self._memory, self._count = tell, memory, len(jobs)
         self._found, self._states = dict[str, Found](), dict[str, tuple[float, SearchState]]()
-        self._open = list[Job]()
-        for job in self._whole:
+        self._open, self.nodes = list[Job](), 0
+        for job in jobs:
             self._take(job)
 
     def _take(self, job: Job) -> None:
@@ -55,18 +151,16 @@ class Crew:
         if known is None:
             self._open.append(job)
         else:
-            self._keep(job, Found.read(known))
+            self._keep(job, job.read(known))
 
     def _keep(self, job: Job, found: Found) -> None:
-        """What a job has come to; one that was cut makes others."""
+        """What a job found, and the jobs that it leaves."""
         self._found[job.name] = found
         if self._memory is not None and found.finished and self._memory.known(job.name) is None:
             self._memory.keep(job.name, found.stored())
-        if found.cut:
-            for one in job.parted(found.cut):
-                self._take(one)
-        else:
-            self._hear(job, found.state)
+        self._hear(job, found.state)
+        for one in job.parted(found):
+            self._take(one)
 
     def _hear_of(self, running: Running) -> None:
         self._hear(running.job, running.state)
@@ -75,18 +169,13 @@ class Crew:
         self._states[job.name] = job.share, state
         shares = np.array([[share * s.proved, share * s.undecided, s.nodes] for share, s in self._states.values()])
         proved, undecided, nodes = shares.sum(axis=0)
-        parts = len(self._whole)
-        left = max(1 - (proved + undecided) / parts, 0.0)
-        self._tell(SearchState(proved=proved / parts, undecided=undecided / parts, open=left, nodes=int(nodes)))
+        left, self.nodes = max(1 - (proved + undecided) / self._count, 0.0), int(nodes)
+        self._tell(SearchState(proved=proved / self._count, undecided=undecided / self._count, open=left, nodes=self.nodes))
 
-    def found(self) -> list[Found]:
-        """Of each part; what was not looked at is undecided."""
-        parts = list[Found]()
-        for job in self._whole:
-            one = self._found.get(job.name, _nothing(job))
-            boxes = job.parted(one.cut) if one.cut else [job]
-            parts.append(joined([self._found.get(box.name, _nothing(job)) for box in boxes], one.cut))
-        return parts
+    def found(self, job: Job) -> Any:
+        """Of a job and those that it leaves; what was not looked at is undecided."""
+        one = self._found.get(job.name)
+        return job.nothing() if one is None else job.joined(one, [self.found(part) for part in job.parted(one)])
 
     def alone(self, end: float, stop: Stop) -> None:
         """In this process, until a time (``monotonic``) or ``stop``."""
@@ -104,17 +193,20 @@ class Crew:
         turn = np.inf if self._memory is not None and np.isinf(end) else _SLICE
         while (running or self._open) and monotonic() < end and not stop():
             waiting, self._open = self._open, []
-            turns: list[Running | Job] = [*running, *waiting]
-            for left, one in zip(range(len(turns), 0, -1), turns, strict=True):
+            turns: list[Callable[[float], Running]] = [
+                *(partial(_same, one) for one in running),
+                *(job.begun for job in waiting),
+            ]
+            running = []
+            for left, given in zip(range(len(turns), 0, -1), turns, strict=True):
                 now = monotonic()
                 until = now + min((end - now) / left, turn)
-                work = one.begun(until) if isinstance(one, Job) else one
+                work = given(until)
                 work.run(until, stop, partial(self._hear_of, work))
-                if isinstance(one, Job):
-                    running.append(work)
                 if work.finished:
                     self._keep(work.job, work.found())
-            running = [one for one in running if not one.finished]
+                else:
+                    running.append(work)
         for one in running:
             self._keep(one.job, one.found())
 
@@ -156,8 +248,8 @@ class Crew:
                 halt.set()
 
 
-def _nothing(job: Job) -> Found:
-    return Found(b"\2", np.empty((0, job.claim.arm.n), dtype=np.int64), 0, False, 0.0)
+def _same(running: Running, until: float) -> Running:
+    return running
 
 
 # ---- in the other processes ----------------------------------------------------------------------------------------------
@@ -187,6 +279,6 @@ def _done(job: Job, until: float) -> Found:
             told[0] = monotonic()
             _here["news"].put((job.name, running.state))
 
-    if not running.finished and not running.found().too_many:
+    if not running.finished:
         running.run(until, _here["halt"].is_set, tell)
     return running.found()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from holdfast.faults.entry import SENSOR
 from holdfast.faults.events import FaultEvent
 from holdfast.faults.feasibility import Feasibility, feasible
 from holdfast.faults.injector import FaultInjector
+from holdfast.faults.learning.recording import Recorder
 from holdfast.faults.scheme import Faults, Jointed
 
 try:
@@ -76,12 +78,14 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             not given they are found by moving each joint a little.
         reveal: False: ``info`` says nothing, and only ``env.fault`` does, which no policy sees.
         horizon: s, the end of an episode, see :meth:`holdfast.faults.Faults.draw`.
+        record: A folder for a record of each episode, see :func:`holdfast.faults.recorded`; more are added to it.
 
     Attributes:
         fault: What ``info["fault"]`` tells.
 
     Raises:
         InputError: No MuJoCo model is found, or it cannot have the faults.
+        StoreError: The folder cannot be made.
         HoldfastError: Gymnasium or MuJoCo is not installed.
     """
 
@@ -96,6 +100,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         observes: Mapping[str, Sequence[int]] | None = None,
         reveal: bool = True,
         horizon: float = math.inf,
+        record: str | Path | None = None,
     ) -> None:
         if Wrapper is object:
             raise HoldfastError("Gymnasium is not installed; pip install 'holdfast[learn]'")
@@ -106,10 +111,14 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self._arm, self._goal, self._reveal = arm, goal, reveal
         self._observes, self._given, self._episode = dict(observes or {}), observes is not None, -1
         self._rows = model.jnt_qposadr[[model.joint(name).id for name in self.injector.joints]]
+        self._recorder = None if record is None else Recorder(record)
+        self._seed: int | None = None
         self._fresh()
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """The model as it was, the environment's own reset, and the next episode's faults."""
+        self._finish("left")
+        self._seed = seed
         chosen = dict(options or {})
         self._episode = int(chosen.pop("episode", self._episode + 1))
         self.injector.restore()
@@ -137,9 +146,37 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             observation = self._seen(observation)
         if self._reveal:
             info["fault"] = self.fault
+        if self._recorder is not None:
+            self._note(action, reward)
+            if terminated or truncated:
+                self._finish("terminated" if terminated else "truncated")
         return observation, reward, terminated, truncated, info
 
+    def close(self) -> None:
+        """Write the record of the last episode, and close the environment."""
+        self._finish("left")
+        self.env.close()
+
     # ---- inside ------------------------------------------------------------------------------------------------------
+
+    def _note(self, action: Any, reward: Any) -> None:
+        """What a robot would have recorded of this step."""
+        assert self._recorder is not None
+        injector, model, data = self.injector, self.injector.model, self.injector.data
+        reference = np.full(len(injector.joints), np.nan)
+        for j, name in enumerate(injector.joints):
+            for a in injector.actuators_of(name):
+                if model.actuator_biasprm[a, 1] < 0 and model.actuator_gear[a, 0] == 1:  # a servo of position
+                    reference[j] = data.ctrl[a] * model.actuator_gainprm[a, 0] / -model.actuator_biasprm[a, 1]
+        injector.time = data.time
+        q, torque = injector.read(data.qpos[self._rows]), data.qfrc_actuator[injector.dofs]
+        self._recorder.note(data.time, reference, q, torque, action, reward)
+
+    def _finish(self, outcome: str) -> None:
+        if self._recorder is None:
+            return
+        events, known = self.injector.events, self._judged().answer
+        self._recorder.finish(seed=self._seed, episode=self._episode, events=events, feasible=known, outcome=outcome)
 
     def _has_model(self) -> bool:
         return _found(self.env.unwrapped)[0] is self.injector.model

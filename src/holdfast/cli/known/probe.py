@@ -1,0 +1,82 @@
+"""``holdfast probe``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import (
+    NOT_MET,
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    JsonOption,
+    OutOption,
+    PlotOption,
+    SeedOption,
+    TaskOption,
+    TipOption,
+    read_arm,
+    read_configuration,
+    read_joint,
+    read_task,
+)
+from holdfast.errors import InputError
+from holdfast.present.results import drawn, printed
+
+
+def command(
+    arm: ArmArgument,
+    at: Annotated[
+        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
+    ] = None,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
+    suspects: Annotated[
+        str | None, typer.Option("--suspects", help="Joints that may be locked, by commas. Default: all.", show_default=False)
+    ] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option("--record", help="Decide: a record of the motion with the tool's pose (.npz, .csv).", show_default=False),
+    ] = None,
+    task: TaskOption = None,
+    duration: Annotated[float, typer.Option("--duration", help="Of each leg, at most, s.")] = 5.0,
+    speed: Annotated[float, typer.Option("--speed", help="Norm of the joint rates, rad/s and m/s.")] = 0.25,
+    seed: SeedOption = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    plot: PlotOption = None,
+    out: OutOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Plan a self-motion that tells which joint is locked, from the tool's pose alone; or decide from a record of it.
+
+    What it can tell apart and what not is printed before anything moves. With --record: exit code 0 if none of the suspects is
+    locked, 3 otherwise.
+
+    Example: holdfast probe panda --at "0 -0.4 0.3 -2 0.2 1.8 0.5" --csv probe.csv
+    """
+    model = read_arm(arm, base, tip, hold)
+    chosen = None if suspects is None else [read_joint(model, text) for text in suspects.split(",")]
+    if (at is None) == (record is None):
+        raise InputError("give --at to plan, or --record to decide, one of them")
+    if record is not None:
+        finding = hf.diagnosis.decide(model, hf.faults.Log.load(record), suspects=chosen)
+        printed(finding, json_)
+        if finding.remaining != ("none",):
+            raise typer.Exit(NOT_MET)
+        return
+    found = hf.diagnosis.plan_probe(
+        model,
+        read_configuration(model, str(at), degrees, "--at"),
+        suspects=chosen,
+        task=read_task(task, arm, model),
+        duration=duration,
+        speed=speed,
+        seed=seed,
+    )
+    printed(found, json_, ([] if csv is None else [found.to_csv(csv)]) + drawn(found, plot, out))

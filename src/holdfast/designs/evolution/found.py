@@ -1,0 +1,81 @@
+"""What an evolution strategy found: an arm, and what it is worth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arms.dh_file import text
+from holdfast.designs.space import DesignSpace
+from holdfast.result import Result
+
+Array = NDArray[np.float64]
+
+OBJECTIVES = ("self-motion-size", "tolerant-workspace")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class EvolvedDesign(Result):
+    """The best arm that an evolution strategy found.
+
+    Attributes:
+        space: What was varied.
+        objective: ``self-motion-size``, in whole turns, or ``tolerant-workspace``, in m^2.
+        values: (k,) of the arm, rad and m.
+        value: What it is worth.
+        given: What the given arm is worth, with its own best configuration or limits.
+        bound: No arm of the space has more; for workspaces none whose first joint has no limits.
+        q: (n,) rad, a configuration on the curve; None for workspaces.
+        winding: (n,) whole turns of each joint on the curve; None for workspaces.
+        limits: (n, 2) artificial limits that hold until a joint locks, rad; None for self-motions.
+        history: (G,) the best value after each generation.
+        seed: Of the search.
+        seconds: What it took.
+    """
+
+    space: DesignSpace
+    objective: str
+    values: Array
+    value: float
+    given: float
+    bound: float
+    q: Array | None = None
+    winding: NDArray[np.int64] | None = None
+    limits: Array | None = None
+    history: Array
+    seed: int
+    seconds: float
+
+    @property
+    def unit(self) -> str:
+        """Of the value."""
+        return "whole turns" if self.objective == "self-motion-size" else "m^2"
+
+    def arm(self) -> Arm:
+        """The arm, without inertial data."""
+        return self.space.arm_of(self.values)
+
+    def arm_file(self) -> str:
+        """The arm as a file that every command takes."""
+        arm = self.arm()
+        return text(self.space.table_of(self.values), arm.name, arm.gravity, arm.source)
+
+    def describe(self) -> list[str]:
+        """What it is worth, beside the given arm and what none can beat."""
+        lines = [
+            f"{self.objective}: {self.value:.6g} {self.unit}, the given arm {self.given:.4g}; no arm of these bounds has more "
+            f"than {self.bound:.6g}"
+        ]
+        if self.q is not None and self.winding is not None:
+            turns = ", ".join(f"{x:+d}" for x in self.winding)
+            at = ", ".join(f"{x:.4f}" for x in self.q)
+            lines.append(f"on one curve of the pose at q = {at} rad; whole turns on the way round: {turns}")
+        if self.limits is not None:
+            pairs = ", ".join(f"{a:.1f} to {b:.1f}" for a, b in np.degrees(self.limits))
+            lines.append(
+                f"until a joint locks the joints stay within {pairs} deg; the bound is for arms whose joint 1 has no limits"
+            )
+        return lines

@@ -1,0 +1,397 @@
+"""The monitor as C99: what of it is the same for every arm. NAME, COUNT and the constants are filled in by `export`."""
+
+HEADER = """\
+#ifndef GUARD_H
+#define GUARD_H
+
+#define GUARD_JOINTS COUNT
+#define GUARD_RATE RATE_HZ
+/* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
+#define GUARD_HOLDFAST "VERSION"
+#define GUARD_ARM "FINGERPRINT"
+#define GUARD_PARAMETERS "DIGEST"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+    GUARD_UNKNOWN, GUARD_LOCKED, GUARD_STANDSTILL, GUARD_LIMP, GUARD_WEAK, GUARD_FRICTION, GUARD_SLUGGISH, GUARD_SENSOR,
+    GUARD_CONTACT
+} NAME_kind;
+
+/* What is known: without an alarm the rest means nothing. joint: from 0, -1 if none is to blame or it is not known yet.
+   loss: fraction of its torque that the motor lost, -1 where that is not the question. */
+typedef struct {
+    int alarm;
+    double time;
+    int joint;
+    NAME_kind kind;
+    double loss;
+} NAME_verdict;
+
+/* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
+typedef struct {
+    double v[COUNT], r[COUNT];
+    double over_z[COUNT], over_y[COUNT], over_w;
+    long cycle, fast, seen, seen_at, count, poses, some;
+    int begun, referred, alarmed, torques, tool, suspect, push, joint, told;
+    double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
+    double size[COUNT], residual[COUNT], left[COUNT], gap;
+    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
+    NAME_verdict verdict;
+} NAME_state;
+
+extern const char *const NAME_joints[COUNT];
+
+/* Before the first cycle, and to forget everything. */
+void NAME_init(NAME_state *state);
+
+/* Forget the alarm and what led to it, while the arm goes on. */
+void NAME_rearm(NAME_state *state);
+
+/* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
+   q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
+   torque: commanded torques, N m and N, or NULL. pose: the tool's measured pose, taken now, (4, 4) row by row, or NULL. */
+void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
+               const double *pose, NAME_verdict *verdict);
+
+/* A word for each kind. */
+const char *NAME_kind_name(NAME_kind kind);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+"""
+
+SOURCE = """\
+enum { N = COUNT, SMOOTHED = 5 };
+static const double DT = CONST_DT;
+
+static double larger(double a, double b) { return a > b ? a : b; }
+static double smaller(double a, double b) { return a < b ? a : b; }
+
+static int finite_all(const double *x, int count) {
+    int k;
+    for (k = 0; k < count; ++k)
+        if (!(x[k] - x[k] == 0)) return 0;
+    return 1;
+}
+
+static void answer(NAME_state *s, int joint, NAME_kind kind, double loss) {
+    s->verdict.joint = joint;
+    s->verdict.kind = kind;
+    s->verdict.loss = loss;
+}
+
+/* Rotation vector of a rotation, row by row, by the longest row of 4 q q' of its quaternion q. */
+static void rotation_vector(const double r[9], double out[3]) {
+    double o[4][4], q[4], size = 0, half, factor, trace = r[0] + r[4] + r[8];
+    int i, j, best = 0;
+    for (i = 0; i < 3; ++i)
+        for (j = 0; j < 3; ++j) o[i][j] = i == j ? 1 + 2 * r[4 * i] - trace : r[3 * i + j] + r[3 * j + i];
+    o[3][3] = 1 + trace;
+    o[3][0] = o[0][3] = r[7] - r[5];
+    o[3][1] = o[1][3] = r[2] - r[6];
+    o[3][2] = o[2][3] = r[3] - r[1];
+    for (i = 1; i < 4; ++i)
+        if (o[i][i] > o[best][best]) best = i;
+    for (i = 0; i < 4; ++i) size += o[best][i] * o[best][i];
+    for (i = 0; i < 4; ++i) q[i] = o[best][i] / sqrt(size) * (o[best][3] < 0 ? -1 : 1);
+    half = atan2(sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), q[3]);
+    factor = half > 1e-12 ? 2 * half / sin(half) : 2;
+    for (i = 0; i < 3; ++i) out[i] = q[i] * factor;
+}
+
+/* Rates, and the residual of the momentum. */
+static void observe(NAME_state *s, const double *q, const double *torque) {
+#if WITH_TORQUES
+    double p[N], energy[N], known;
+#endif
+    int k, first = !s->begun;
+    for (k = 0; k < N; ++k) {
+        if (first) {
+            if (torque) s->torque[k] = s->low[k] = torque[k];
+        } else {
+            s->v[k] += CONST_BAND * ((q[k] - s->q[k]) / DT - s->v[k]);
+        }
+        s->q[k] = q[k];
+    }
+    s->begun = 1;
+#if WITH_TORQUES
+    if (!torque) return;
+    momentum(q, s->v, p, energy, s->gravity);
+    for (k = 0; k < N; ++k) {
+        s->torque[k] += CONST_BAND * (torque[k] - s->torque[k]);
+        s->low[k] += CONST_LOW * (s->torque[k] - s->low[k]);
+        if (!first) {
+            known = s->torque[k] + energy[k] - s->gravity[k] - (coulomb[k] * tanh(s->v[k] / CONST_SLIP) + viscous[k] * s->v[k]);
+            s->r[k] = CONST_KEEP * s->r[k] + CONST_GAIN * (p[k] - s->p[k] - DT * known);
+        }
+        s->p[k] = p[k];
+    }
+#endif
+}
+
+/* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
+static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
+    double there[12], turn[9], mean[6] = {0}, w;
+    int i, j, k, some;
+    tool(q, there, jacobian);
+    for (i = 0; i < 3; ++i) {
+        residual[i] = pose[4 * i + 3] - there[9 + i];
+        for (j = 0; j < 3; ++j)
+            for (turn[3 * i + j] = 0, k = 0; k < 3; ++k) turn[3 * i + j] += pose[4 * i + k] * there[3 * j + k];
+    }
+    rotation_vector(turn, residual + 3);
+    for (i = 0; i < 6; ++i) s->last[s->seen % SMOOTHED][i] = residual[i];
+    some = s->seen + 1 < SMOOTHED ? (int)s->seen + 1 : SMOOTHED;
+    for (k = 0; k < some; ++k)
+        for (i = 0; i < 6; ++i) mean[i] += s->last[k][i];
+    for (i = 0; i < 6; ++i) mean[i] /= some;
+    w = larger(sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / CONST_POSITION,
+               sqrt(mean[3] * mean[3] + mean[4] * mean[4] + mean[5] * mean[5]) / CONST_ANGLE);
+    if (s->seen) s->over_w = larger(0, s->over_w + (w - 1) * (double)(s->cycle - s->seen_at) * DT);
+    s->seen += 1;
+    s->seen_at = s->cycle;
+    return w;
+}
+
+/* Does a force at the tool explain the mean residual torques better than any joint alone? */
+static int is_a_push(const NAME_state *s, const double *q) {
+    double there[12], jacobian[6 * N], column[3][N], mean[N], whole = 0, most = 0, left = 0, size, before, along;
+    int i, j, k;
+    tool(q, there, jacobian);
+    for (k = 0; k < N; ++k) {
+        mean[k] = s->residual[k] / CONST_SPLIT / (CONST_SCALE * torque_bound[k]);
+        whole += mean[k] * mean[k];
+        most = larger(most, mean[k] * mean[k]);
+        for (i = 0; i < 3; ++i) column[i][k] = jacobian[6 * k + i] / (CONST_SCALE * torque_bound[k]);
+    }
+    for (i = 0; i < 3; ++i) {
+        for (before = 0, k = 0; k < N; ++k) before += column[i][k] * column[i][k];
+        for (j = 0; j < i; ++j) {
+            for (along = 0, k = 0; k < N; ++k) along += column[i][k] * column[j][k];
+            for (k = 0; k < N; ++k) column[i][k] -= along * column[j][k];
+        }
+        for (size = 0, k = 0; k < N; ++k) size += column[i][k] * column[i][k];
+        size = size > 1e-20 * before ? sqrt(size) : 0;
+        for (k = 0; k < N; ++k) column[i][k] = size > 0 ? column[i][k] / size : 0;
+        for (along = 0, k = 0; k < N; ++k) along += column[i][k] * mean[k];
+        for (k = 0; k < N; ++k) mean[k] -= along * column[i][k];
+    }
+    for (k = 0; k < N; ++k) left += mean[k] * mean[k];
+    return left + CONST_PUSHED < whole - most;
+}
+
+/* A cycle after the alarm: sums, which are all that the decision needs. */
+static void follow(NAME_state *s, const double *q, const double *reference, const double *z, const double *y) {
+    int k;
+    s->count += 1;
+    if (s->count <= CONST_SPLIT) {
+        for (k = 0; k < N; ++k) {
+            double value = s->torques && !(z[k] <= y[k]) ? z[k] : y[k];
+            s->size[k] += value == value ? value : 0;
+            s->residual[k] += s->r[k];
+        }
+        if (s->count == CONST_SPLIT) {
+            if (s->torques) s->push = is_a_push(s, q);
+            for (s->joint = 0, k = 1; k < N; ++k)
+                if (s->size[k] > s->size[s->joint]) s->joint = k;
+        }
+    } else if (s->count <= CONST_LAST) {
+        int i = s->joint;
+        double slip = tanh(s->v[i] / CONST_SLIP), r = s->r[i], low = s->low[i];
+        if (s->some == 0) {
+            s->lowest = s->highest = q[i];
+            s->wanted_low = s->wanted_high = reference[i];
+            s->least = HUGE_VAL;
+        }
+        s->some += 1;
+        s->behind = fabs(reference[i] - q[i]);
+        s->lowest = smaller(s->lowest, q[i]);
+        s->highest = larger(s->highest, q[i]);
+        s->wanted_low = smaller(s->wanted_low, reference[i]);
+        s->wanted_high = larger(s->wanted_high, reference[i]);
+        s->asked = larger(s->asked, fabs(low - s->gravity[i]));
+        s->least = smaller(s->least, fabs(s->gravity[i]));
+        s->rr += r * r;
+        s->rt += r * low;
+        s->rs += r * slip;
+        s->tt += low * low;
+        s->ss += slip * slip;
+    }
+}
+
+/* What each joint's sensor would leave unexplained of a sample of the tool's pose. */
+static void explain(NAME_state *s, double w, const double residual[6], const double jacobian[6 * N]) {
+    double whole = 0, best = HUGE_VAL, next = HUGE_VAL, along, size;
+    int i, k;
+    if (s->count <= CONST_AGAIN && w > CONST_SUSPECT) s->suspect = 1;
+    if (s->told >= 0 && s->gap > CONST_WORSE) return;
+    for (i = 0; i < 6; ++i) whole += (residual[i] * weight[i]) * (residual[i] * weight[i]);
+    for (k = 0; k < N; ++k) {
+        for (along = size = 0, i = 0; i < 6; ++i) {
+            double entry = jacobian[6 * k + i] * weight[i];
+            along += residual[i] * weight[i] * entry;
+            size += entry * entry;
+        }
+        s->left[k] += whole - along * along / larger(size, 1e-300);
+    }
+    s->poses += 1;
+    if (s->poses < 2) return;
+    for (k = 0; k < N; ++k) {
+        if (s->left[k] < best) {
+            next = best;
+            best = s->left[k];
+            s->told = k;
+        } else {
+            next = smaller(next, s->left[k]);
+        }
+    }
+    s->gap = next - best;
+}
+
+static void decide(NAME_state *s) {
+    int i = s->joint, still;
+    double travel, wanted, loss, drag, by_loss, by_drag, worse;
+    if (s->count < CONST_SPLIT) return;
+    if (s->suspect) {
+        answer(s, s->told >= 0 && s->gap > CONST_WORSE ? s->told : -1, GUARD_SENSOR, -1);
+        return;
+    }
+    if (s->push) {
+        answer(s, -1, GUARD_CONTACT, -1);
+        return;
+    }
+    if (s->count < CONST_LAST) {
+        answer(s, i, GUARD_UNKNOWN, -1);
+        return;
+    }
+    travel = s->highest - s->lowest;
+    wanted = s->wanted_high - s->wanted_low;
+    still = travel < CONST_STILL && travel < CONST_PART * wanted + CONST_NOISE;
+    if (!s->torques) {
+        answer(s, i, still ? GUARD_LOCKED : GUARD_UNKNOWN, -1);
+        return;
+    }
+    loss = s->tt > 0 ? smaller(larger(-s->rt / s->tt, 0), 1.3) : -1;
+    drag = larger(0, -s->rs / larger(s->ss, 1e-12));
+    by_loss = s->tt > 0 ? s->rr + 2 * loss * s->rt + loss * loss * s->tt : HUGE_VAL;
+    by_drag = s->rr + 2 * drag * s->rs + drag * drag * s->ss;
+    worse = (by_drag - by_loss) / ((double)s->some * (CONST_SCALE * torque_bound[i]) * (CONST_SCALE * torque_bound[i]));
+    if (still && s->asked >= CONST_TIMES * coulomb[i]) {
+        if (loss > CONST_LEAST && loss < CONST_MOST && s->least < CONST_TIMES * coulomb[i])
+            answer(s, i, GUARD_STANDSTILL, loss);
+        else
+            answer(s, i, GUARD_LOCKED, -1);
+    } else if (!(s->tt > 0) || !(smaller(by_loss, by_drag) < 0.5 * s->rr)) {
+        answer(s, i, GUARD_UNKNOWN, -1);
+    } else if (fabs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] == 0)) {
+        answer(s, i, GUARD_SLUGGISH, loss);
+    } else if (worse < 0) {
+        answer(s, i, GUARD_FRICTION, -1);
+    } else if (loss > CONST_ALL || (loss > CONST_LEAST && s->behind > CONST_AWAY * tracking_bound[i])) {
+        answer(s, i, GUARD_LIMP, loss);
+    } else {
+        answer(s, i, GUARD_WEAK, loss);
+    }
+}
+
+void NAME_rearm(NAME_state *s) {
+    int k;
+    for (k = 0; k < N; ++k) s->over_z[k] = s->over_y[k] = s->size[k] = s->residual[k] = s->left[k] = 0;
+    s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
+    s->rr = s->rt = s->rs = s->tt = s->ss = s->verdict.time = 0;
+    s->count = s->poses = s->some = 0;
+    s->alarmed = s->torques = s->tool = s->suspect = s->push = s->verdict.alarm = 0;
+    s->joint = s->told = -1;
+    answer(s, -1, GUARD_UNKNOWN, -1);
+}
+
+void NAME_init(NAME_state *s) {
+    static const NAME_state zero;
+    *s = zero;
+    NAME_rearm(s);
+}
+
+void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
+               NAME_verdict *verdict) {
+    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0;
+    int k, gated, look_now = 0;
+    if (!WITH_TORQUES) torque = 0;
+    s->cycle += 1;
+    *verdict = s->verdict;
+    if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) return;
+    observe(s, q, torque);
+    for (k = 0; k < N && s->referred; ++k)
+        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * DT) s->fast = s->cycle;
+    gated = !torque && s->cycle - s->fast < CONST_CALM;
+    for (k = 0; k < N; ++k) {
+        s->reference[k] = reference[k];
+        z[k] = fabs(s->r[k]) / torque_bound[k];
+        y[k] = fabs(reference[k] - q[k]) / tracking_bound[k];
+        s->over_z[k] = larger(0, s->over_z[k] + (z[k] - 1) * DT);
+        if (!gated) s->over_y[k] = larger(0, s->over_y[k] + (y[k] - 1) * DT);
+        most_z = larger(most_z, s->over_z[k]);
+        most_y = larger(most_y, s->over_y[k]);
+        if (gated) y[k] = 0;
+    }
+    s->referred = 1;
+    if (pose && finite_all(pose, 16)) {
+        w = look(s, q, pose, residual, jacobian);
+        look_now = 1;
+    }
+    if (!s->alarmed && (most_z > CONST_LIMIT_Z || most_y > CONST_LIMIT_Y || s->over_w > CONST_LIMIT_W)) {
+        s->alarmed = s->verdict.alarm = 1;
+        s->verdict.time = (double)(s->cycle - 1) * DT;
+        s->torques = torque != 0;
+        s->tool = s->seen > 0;
+        s->suspect = !(most_z > CONST_LIMIT_Z || most_y > CONST_LIMIT_Y);
+    }
+    if (s->alarmed && s->count < CONST_ENDS) {
+        follow(s, q, reference, z, y);
+        if (look_now) explain(s, w, residual, jacobian);
+        if (look_now || s->count == CONST_SPLIT || s->count == CONST_LAST) decide(s);
+    }
+    *verdict = s->verdict;
+}
+
+const char *NAME_kind_name(NAME_kind kind) {
+    static const char *const names[] = {"unknown", "locked", "standstill", "limp", "weak",
+                                        "friction", "sluggish", "sensor", "contact"};
+    return names[kind];
+}
+"""
+
+EXAMPLE = """\
+/*
+ * Reads a record from standard input, one cycle a line (COUNT measured joint values, COUNT references, COUNT torques), and says
+ * what the monitor says. In a controller NAME_step stands in the cycle.
+ * cc -std=c99 NAME.c NAME_example.c -lm -o NAME_example
+ */
+#include "NAME.h"
+
+#include <stdio.h>
+
+int main(void) {
+    static NAME_state state; /* one for each arm */
+    double cycle[3 * COUNT];
+    NAME_verdict verdict = {0, 0, -1, GUARD_UNKNOWN, -1};
+    int k, known = 0;
+    NAME_init(&state);
+    for (;;) {
+        for (k = 0; k < 3 * COUNT && scanf("%lf", cycle + k) == 1;) ++k;
+        if (k < 3 * COUNT) break;
+        NAME_step(&state, cycle, cycle + COUNT, cycle + 2 * COUNT, 0, &verdict);
+        if (verdict.alarm && !known) printf("alarm at %.3f s\\n", verdict.time);
+        known = verdict.alarm;
+    }
+    if (!known) puts("no fault seen, which does not prove that there is none");
+    else if (verdict.joint < 0) printf("no joint is known: %s\\n", NAME_kind_name(verdict.kind));
+    else printf("%s: %s\\n", NAME_joints[verdict.joint], NAME_kind_name(verdict.kind));
+    return known ? 3 : 0;
+}
+"""

@@ -1,0 +1,219 @@
+"""The monitor as C99 that needs nothing but ``math.h``, for a robot's own controller."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from holdfast.arguments import checked
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.control.export import check_name, quoted, version
+from holdfast.diagnosis import c_text, decision, kinds
+from holdfast.diagnosis.bounds import Bounds
+from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
+from holdfast.diagnosis.sensors import Sensors
+from holdfast.diagnosis.separation import Array
+from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
+from holdfast.files.output import put
+from holdfast.notice import says
+from holdfast.result import Result
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExportedMonitor(Result):
+    """The files of a monitor.
+
+    Attributes:
+        arm: The arm.
+        source: ``NAME.c``.
+        header: ``NAME.h``, for C and C++.
+        example: ``NAME_example.c``, which watches a record from its standard input.
+        digest: Of bounds and sensors; the header has it, and the arm's fingerprint.
+    """
+
+    arm: Arm
+    source: Path
+    header: Path
+    example: Path
+    digest: str
+
+    def __iter__(self) -> Iterator[Path]:
+        return iter((self.source, self.header, self.example))
+
+    def describe(self) -> list[str]:
+        """What was written where."""
+        source, *others = self
+        return [f"monitor of {self.arm.title}: wrote {source} and {', '.join(file.name for file in others)}"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The arm, the digest and the files."""
+        files = zip(("source", "header", "example"), map(str, self), strict=True)
+        return {**self.arm.entry(), "digest": self.digest, **dict(files)}
+
+
+@checked
+@says("writing down the monitor")
+def export_c(
+    arm: Arm, bounds: Bounds, folder: str | Path, *, name: str = "monitor", sensors: Sensors | None = None
+) -> ExportedMonitor:
+    """Write the monitor of :class:`holdfast.diagnosis.Monitor` as C99: the same numbers and the same verdicts.
+
+    It allocates nothing, keeps everything in a struct that the caller owns, one for each arm, and takes the same time in every
+    cycle but for those with a pose. It is no certified safety function.
+
+    Args:
+        arm: The arm.
+        bounds: Of the healthy arm.
+        folder: For the files, made if it is not there.
+        name: Of the functions and the files.
+        sensors: How good they are.
+
+    Raises:
+        InputError: Bounds of another arm, or a name that no C function can have.
+        ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
+        StoreError: They cannot be written.
+    """
+    bounds.require(arm, bounds.rate)
+    check_name(name)
+    known = sensors or Sensors()
+    digest = _digest(bounds, known)
+    words = {"NAME": name, "GUARD": name.upper(), "COUNT": str(arm.n)}
+    words |= {"VERSION": version(), "FINGERPRINT": arm.fingerprint, "DIGEST": digest, "RATE_HZ": repr(bounds.rate)}
+    constants = {**words, **_constants(arm, bounds, known)}
+    about = _about(arm, bounds, name, digest)
+    texts = {
+        f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_graph(arm, bounds, known, name)}\n'
+        + _filled(c_text.SOURCE, constants),
+        f"{name}.h": f"{about}\n" + _filled(c_text.HEADER, words),
+        f"{name}_example.c": _filled(c_text.EXAMPLE, words),
+    }
+    source, header, example = put(folder, texts)
+    return ExportedMonitor(arm=arm, source=source, header=header, example=example, digest=digest)
+
+
+def _filled(text: str, words: dict[str, str]) -> str:
+    for word in sorted(words, key=len, reverse=True):
+        text = text.replace(word, words[word])
+    return text
+
+
+def _digest(bounds: Bounds, sensors: Sensors) -> str:
+    """Of all numbers that the monitor has, in their order."""
+    data = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(bounds).items()}
+    return hashlib.sha256(json.dumps([data, vars(sensors)], sort_keys=True).encode()).hexdigest()
+
+
+def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
+    """What the text leaves open, as C writes it."""
+    dt = 1 / bounds.rate
+    times = {
+        "SPLIT": decision.ISOLATE,
+        "LAST": decision.ISOLATE + decision.CLASSIFY,
+        "AGAIN": decision.AGAIN,
+        "ENDS": decision.WATCHED,
+        "CALM": CALM,
+    }
+    values = {
+        "DT": dt,
+        "BAND": min(1.0, BAND * dt),
+        "LOW": min(1.0, GAIN * dt),
+        "KEEP": 1 - GAIN * dt,
+        "GAIN": GAIN,
+        "SLIP": SLIP,
+        "SLOW": SLOW,
+        "POSITION": bounds.position,
+        "ANGLE": bounds.angle,
+        "LIMIT_Z": LIMITS["torque"],
+        "LIMIT_Y": LIMITS["tracking"],
+        "LIMIT_W": LIMITS["tool"],
+        "SUSPECT": decision.SUSPECT,
+        "WORSE": decision.WORSE,
+        "PUSHED": decision.PUSHED,
+        "SCALE": kinds.SCALE,
+        "STILL": kinds.STILL,
+        "PART": kinds.PART,
+        "NOISE": kinds.NOISY * sensors.joint,
+        "TIMES": kinds.TIMES,
+        "LEAST": kinds.CARRIED[0],
+        "MOST": kinds.CARRIED[1],
+        "ALL": kinds.ALL,
+        "AWAY": kinds.AWAY,
+        "GROWN": kinds.GROWN,
+    }
+    named = {name: str(decision.cycles(seconds, dt)) for name, seconds in times.items()}
+    named |= {name: _number(value) for name, value in values.items()}
+    torques = str(int(np.isfinite(bounds.torque).all()))
+    return {"WITH_TORQUES": torques, **{f"CONST_{name}": value for name, value in named.items()}}
+
+
+def _number(value: float) -> str:
+    return "HUGE_VAL" if np.isinf(value) else repr(float(value))
+
+
+def _array(name: str, values: Array) -> str:
+    return f"static const double {name}[{len(values)}] = {{{', '.join(map(_number, values))}}};\n"
+
+
+def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
+    """Names, bounds, and what is computed of the arm's equations, by the graph that the Python monitor has."""
+    q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
+    pose = kinematics.tool_pose(arm, q)
+    told = [pose[:3, :3].T, pose[:3, 3], kinematics.jacobian(arm, q)]  # a matrix is written column by column
+    functions = {"tool": ca.Function(f"{name}_tool_graph", [q], [ca.densify(ca.vec(x)) for x in told], {"cse": True})}
+    if np.isfinite(bounds.torque).all():
+        terms = momentum_terms(bounds.body(arm), q, v)
+        functions["momentum"] = ca.Function(f"{name}_momentum_graph", [q, v], [ca.densify(x) for x in terms], {"cse": True})
+    generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
+    for function in functions.values():
+        generator.add(function)
+    # What is for loading the graph elsewhere goes; arguments that it does not need are no mistake.
+    outer = rf"^[a-z][\w ]*[ *]+{name}_\w+\((?:[^\n]*\}}|[^\n]*\{{\n.*?^\}})\n"
+    text = re.sub(outer, "", generator.dump(), flags=re.M | re.S)
+    text = re.sub(r"^(?:static const casadi_int|#define) casadi_s\d.*\n", "", text, flags=re.M)
+    text = re.sub(r"int mem\) ?\{\n", "int mem) {\n  (void)iw; (void)w; (void)mem;\n", text)
+    sizes = {"p": arm.n, "energy": arm.n, "gravity": arm.n, "there": 12, "jacobian": 6 * arm.n}
+    calls = {"tool": (["q"], ["there", "jacobian"], "there, there + 9, jacobian")}
+    calls["momentum"] = (["q", "v"], ["p", "energy", "gravity"], "p, energy, gravity")
+    for k, (call, function) in enumerate(functions.items()):
+        inputs, outputs, results = calls[call]
+        given = ", ".join([f"const double *{x}" for x in inputs] + [f"double {x}[{sizes[x]}]" for x in outputs])
+        text += f"""
+static void {call}({given}) {{
+    const double *arg[{max(function.sz_arg(), len(inputs))}] = {{{", ".join(inputs)}}};
+    double *res[{max(function.sz_res(), 3)}] = {{{results}}};
+    int iw[{max(function.sz_iw(), 1)}];
+    double w[{max(function.sz_w(), 1)}];
+    casadi_f{k}(arg, res, iw, w, 0);
+}}
+"""
+    joints = ", ".join(quoted(x) for x in arm.joint_names)
+    text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
+    text += _array("torque_bound", bounds.torque) + _array("tracking_bound", bounds.tracking)
+    text += _array("weight", np.repeat(1 / np.array([sensors.position, sensors.angle]), 3))
+    text += _array("viscous", bounds.viscous) if "momentum" in functions else ""
+    return text + _array("coulomb", bounds.coulomb)
+
+
+def _about(arm: Arm, bounds: Bounds, name: str, digest: str) -> str:
+    told = bounds.false_alarms()
+    limit = "unknown" if told is None else f"fewer than {told[1]:.3g} an hour with 95 % confidence, for motion as calibrated"
+    lines = [
+        f"{name}: watches the arm {arm.title} for joint faults, {bounds.rate:g} cycles a second.",
+        f"Made by holdfast {version()} of the arm {arm.fingerprint}",
+        f"and the bounds {digest}; C99, needs only math.h.",
+        "",
+        f"False alarms: {limit}.",
+        "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
+        "Compile without -ffast-math.",
+    ]
+    safe = [x.replace("*/", "* /").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
+    return "/*\n" + "\n".join(f" * {x}".rstrip() for x in safe) + "\n */"

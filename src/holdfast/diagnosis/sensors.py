@@ -1,0 +1,33 @@
+"""How good the sensors of an arm are."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+
+from holdfast.arguments import checked_class
+from holdfast.errors import InputError
+
+
+@checked_class
+@dataclass(frozen=True)
+class Sensors:
+    """How good the sensors are.
+
+    Attributes:
+        position: Standard deviation of the measured tool point, m.
+        angle: Of its orientation, rad.
+        joint: Of a joint sensor, rad or m.
+
+    Raises:
+        InputError: A number that is not above 0.
+    """
+
+    position: float = 0.5e-3
+    angle: float = 1e-3
+    _: KW_ONLY
+    joint: float = 2e-5
+
+    def __post_init__(self) -> None:
+        for name in ("position", "angle", "joint"):
+            if not getattr(self, name) > 0:
+                raise InputError(f"the deviation of '{name}' is {getattr(self, name):g}; it must be above 0")

@@ -1,0 +1,97 @@
+"""A simulated robot that is not quite its model: other masses, friction that the model does not state, and noisy sensors."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arguments import checked_class
+from holdfast.arm.mjcf import import_mujoco
+from holdfast.arm.model import Arm
+from holdfast.errors import InputError
+from holdfast.physics.model import mujoco_spec
+from holdfast.physics.servos import Servos
+
+Array = NDArray[np.float64]
+
+
+@checked_class
+@dataclass(frozen=True)
+class Body:
+    """How a simulated robot differs from the model of its arm, and how well it measures itself.
+
+    Attributes:
+        seed: Of what differs: one robot has one, whatever it does.
+        mismatch: Fraction by which masses, inertias and friction are off, at most, evenly drawn for each link and joint.
+        coulomb: Dry friction of every joint, N m and N.
+        viscous: Viscous friction, N m s/rad and N s/m.
+        rotor: Rotor inertia of joints whose model states none, kg m^2 and kg.
+        joint: Standard deviation of a joint sensor, rad and m.
+        torque: Of a recorded torque, N m and N.
+        position, angle: Of the measured tool point, m, and orientation, rad.
+
+    Raises:
+        InputError: A number below 0, or a mismatch of 1 or more.
+    """
+
+    seed: int = 0
+    _: KW_ONLY
+    mismatch: float = 0.2
+    coulomb: float = 0.5
+    viscous: float = 0.3
+    rotor: float = 0.1
+    joint: float = 2e-5
+    torque: float = 0.05
+    position: float = 0.5e-3
+    angle: float = 1e-3
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not 0 <= value < np.inf:
+                raise InputError(f"{name} of the body is {value:g}; it must be a finite number of 0 or more")
+        if self.mismatch >= 1:
+            raise InputError(f"mismatch of the body is {self.mismatch:g}; it must be below 1, or a mass would be 0")
+
+    def model(self, arm: Arm, servos: Servos) -> tuple[Any, Array, Array]:
+        """The robot as a MuJoCo model with a motor, whose control is its torque, at every joint; ``qpos`` counts from 0.
+
+        Args:
+            arm: With inertial data.
+            servos: Whose gains suit the arm's model, and whose rate gives the step.
+
+        Returns:
+            ``mujoco.MjModel``; stiffness and damping (n,) of the servos.
+
+        Raises:
+            ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+            HoldfastError: MuJoCo is not installed.
+        """
+        mujoco, n = import_mujoco(), arm.n
+        spec = mujoco_spec(arm, np.zeros(n), range(n), step=1 / (servos.rate * servos.substeps))
+        spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+        for joint in arm.joints:
+            motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+            if np.isfinite(joint.effort):
+                motor.forcelimited, motor.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
+        model = spec.compile()
+        model.dof_armature[:] = [joint.armature or self.rotor for joint in arm.joints]
+        stiffness, damping = servos.gains(arm, mujoco, model, start=np.zeros(n))
+        off = np.random.default_rng([1, self.seed])
+        model.body_mass[1:] *= (scale := 1 + off.uniform(-self.mismatch, self.mismatch, model.nbody - 1))
+        model.body_inertia[1:] *= scale[:, None]
+        model.dof_frictionloss[:] = self.coulomb * (1 + off.uniform(-self.mismatch, self.mismatch, n))
+        model.dof_damping[:] = self.viscous * (1 + off.uniform(-self.mismatch, self.mismatch, n))
+        return model, stiffness, damping
+
+    def measured(self, poses: Array, rng: np.random.Generator) -> Array:
+        """Tool poses (N, 4, 4), as a measurement with noise tells them."""
+        from scipy.spatial.transform import Rotation
+
+        told = poses.copy()
+        told[:, :3, 3] += rng.normal(0, self.position, (len(poses), 3))
+        turned = Rotation.from_rotvec(rng.normal(0, self.angle, (len(poses), 3)))
+        told[:, :3, :3] = turned.as_matrix() @ poses[:, :3, :3]
+        return told

@@ -1,0 +1,1 @@
+"""What became of an arm with faults, as words, numbers and a page."""

@@ -1,0 +1,279 @@
+"""What a controller does when a monitor names a joint: brake it, leave it out of the law, slow down, or plan anew.
+
+Source: derived here; braking turns a free-swinging joint into a locked one, English and Maciejewski 2001.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.poses import rotation_vectors
+from holdfast.control.law import Law
+from holdfast.failures import Degraded
+from holdfast.reaction.masked import MaskedLaw
+from holdfast.reaction.plan import Planned, planned
+from holdfast.reaction.run import Action, React, What
+
+if TYPE_CHECKING:
+    from holdfast.diagnosis.kinds import Verdict
+
+Array = NDArray[np.float64]
+
+AT_ONCE = 0.020  # s after the alarm: a joint that does not move, or runs away, is braked before its kind is known
+STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and so much off its reference
+BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking
+SLOW, HALF = 0.3, 0.5  # of the commanded speed
+QUIET = 1.0  # s after which a contact is over
+SPARE = 1.2  # a weak motor must carry gravity so many times
+SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
+NAMED = 2.0  # s after the alarm by which the joint must be known
+FINAL = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
+SLACK = 3e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
+RAMP = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
+ACCELERATION = 10.0  # rad/s^2 or m/s^2, of commanded rates
+IDLE = 1e-3  # rad/s and m/s: a law that commands less is at its end
+NEARER, PATIENCE = 1e-3, 1.5  # m and rad, s: so is one that does not bring the tool so much nearer in this time
+_EASED = frozenset({"weak", "friction", "sluggish"})
+
+
+class Brakes(Protocol):
+    """What stops joints."""
+
+    def brake(self, joint: str) -> None:
+        """Stop one where it is."""
+        ...
+
+
+class Controller:
+    """A law, and what it becomes.
+
+    Args:
+        law: The law, masked by this class.
+        made_for: The law that it is of.
+        tracking: (n,) bounds of the distance from the references, rad and m; None without a monitor.
+        brakes: Of the joints.
+        rearm: Lets the monitor watch on after a push.
+        react: Who notices.
+        plan: Whether a route is planned where the masked law ends off the target.
+
+    Attributes:
+        pace: Fraction of the commanded speed that is aimed at.
+        actions: What was done so far.
+        over: The controller has given up.
+    """
+
+    def __init__(
+        self,
+        law: MaskedLaw,
+        made_for: Law,
+        *,
+        tracking: Array | None,
+        brakes: Brakes,
+        rearm: Callable[[], None],
+        react: React,
+        plan: bool,
+    ) -> None:
+        self.law, self.arm, self._made_for = law, made_for.arm, made_for
+        self._tracking, self._brakes, self._rearm, self._react, self._plans = tracking, brakes, rearm, react, plan
+        self.pace, self.over, self.actions = 1.0, False, list[Action]()
+        self._pace = self._time = self._since = 0.0
+        self._nearest = np.inf
+        self._alarm = self._settled = self._quiet = np.inf
+        self._decided = False
+        self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
+        self._poses: list[tuple[Array, Array]] = []
+        self._planned: Planned | None = None
+        self._effort = np.array([joint.effort for joint in self.arm.joints])
+        self._most = np.array([joint.velocity for joint in self.arm.joints])
+        self._commanded = np.zeros(self.arm.n)
+
+    @property
+    def reacted(self) -> bool:
+        """What is wrong is known, and nothing is left to be watched for."""
+        return self._decided or self.over
+
+    @property
+    def degraded(self) -> Degraded | None:
+        """What is left of the arm, as the controller knows it."""
+        held = {j: self._last[j] for j in np.flatnonzero(self.law.mask == 0)}
+        return Degraded(self.arm, locked={int(j): float(x) for j, x in held.items()}) if held else None
+
+    def believed(self, told: Array) -> Array:
+        """Where the joints are, by sensors that are believed."""
+        if not self._true:
+            return told
+        q = told.copy()
+        for j, value in self._true.items():
+            q[j] = value
+        return q
+
+    def rates(self, time: float, told: Array) -> Array:
+        """Commanded rates (n,), rad/s and m/s: smooth, within the velocity limits, and slower towards the ends of the range."""
+        q, dt = self.believed(told), time - self._time
+        wanted = self._wanted(time, told)
+        if not np.isfinite(wanted).all():
+            wanted = np.zeros(self.arm.n)
+        wanted = wanted / max(1.0, float((np.abs(wanted) / self._most).max()))
+        low, high = (np.sqrt(2 * ACCELERATION * np.maximum(room, 0.0)) for room in (q - self.arm.lower, self.arm.upper - q))
+        wanted = np.minimum(np.maximum(wanted, -low), high)
+        change = ACCELERATION * dt
+        self._commanded = self.law.mask * np.clip(wanted, self._commanded - change, self._commanded + change)
+        return self._commanded
+
+    def _wanted(self, time: float, told: Array) -> Array:
+        """What the law or the route asks for."""
+        q = self._last = self.believed(told)
+        most = RAMP * (time - self._time)
+        self._time, self._pace = time, self._pace + min(max(self.pace - self._pace, -most), most)
+        if self._planned is not None:
+            if not self._planned.over(time):
+                return self._planned.rates(time, q)
+            self._planned = None
+        rates = self.law.rates(q)
+        if np.isfinite(self._settled) and time <= self._settled:
+            self._pace, self._since, self._nearest = 0.0, time, np.inf  # the arm waits until it knows where that joint is
+        elif self._plans and not self.over and self.law.mask.min() == 0 and self._at_its_end(time, rates):
+            return self._end_of_law(time, q)
+        return self._pace * rates
+
+    def _at_its_end(self, time: float, rates: Array) -> bool:
+        off = self.law.miss + self.law.turn
+        if off < self._nearest - NEARER:
+            self._nearest, self._since = off, time
+        slow = not np.isfinite(rates).all() or float(np.abs(rates).max()) < IDLE
+        return slow or time - self._since > PATIENCE
+
+    def idle(self, rates: Array) -> bool:
+        """Nothing more is to come."""
+        return self._planned is None and self._pace == self.pace and float(np.abs(rates).max()) < IDLE
+
+    # ---- what the monitor says ---------------------------------------------------------------------------------------
+
+    def hear(self, time: float, verdict: Verdict, *, behind: Array, v: Array, wanted: Array, gravity: Array) -> None:
+        """React to a verdict.
+
+        Args:
+            time: s.
+            verdict: Of the monitor, now.
+            behind: (n,) distances from the references, rad and m.
+            v: (n,) measured rates, rad/s and m/s.
+            wanted: (n,) commanded ones.
+            gravity: (n,) torques, N m and N.
+        """
+        if self._decided or self.over:
+            return
+        if time > self._quiet:
+            self._act(time, "resume", "no joint was named")
+            self.pace, self._alarm, self._quiet = 1.0, np.inf, np.inf
+            self._rearm()
+            return
+        if not verdict.alarm:
+            return
+        if np.isinf(self._alarm):
+            self._alarm = time
+            self._act(time, "alarm", "something is outside its bounds")
+            if self._react == "stop":
+                self._stop(time, "every joint, at the first alarm")
+                return
+        if verdict.joint is None:
+            if verdict.kind == "contact":
+                if np.isinf(self._quiet):
+                    self._quiet, self.pace = time + QUIET, SLOW
+                    self._act(time, "slow", "something pushes the arm, and no joint is to blame")
+            elif time > self._alarm + NAMED:
+                self._stop(time, "the joint is not known")
+            return
+        i = self.arm.joint_index(verdict.joint)
+        if verdict.kind in _EASED:
+            if self.pace == HALF:
+                self._decided = time > self._alarm + FINAL
+                return
+            left = (1 - verdict.loss) * self._effort[i]  # not a number where no loss is told
+            if left < SPARE * abs(gravity[i]):
+                self._brake(time, verdict.joint, "what its motor still gives does not carry the arm")
+            else:
+                self.pace = HALF
+                self._act(time, "slow", f"its fault: {verdict.kind}", joint=verdict.joint)
+        elif verdict.kind != "unknown" or verdict.candidates:
+            self._brake(time, verdict.joint, f"its fault: {verdict.kind}")
+        elif time >= self._alarm + AT_ONCE:
+            self._at_once(time, verdict.joint, float(behind[i]), float(v[i]), float(wanted[i]))
+
+    def know(self, time: float, kind: str, joint: str, true: float) -> None:
+        """React to a fault that is known at once, with the joint's true place, rad or m."""
+        if self.arm.joint_index(joint) in self._true or self.law.mask[self.arm.joint_index(joint)] == 0:
+            return
+        if kind in ("locked", "limp", "slipping_clutch") or kind.startswith("sensor"):
+            self._act(time, "alarm", f"its fault is known: {kind}", joint=joint)
+            self._brake(time, joint, f"its fault: {kind}")
+            self._true[self.arm.joint_index(joint)] = true
+            self._settled = time
+
+    def feel(self, time: float, told: Array, pose: Array) -> None:
+        """A measured pose of the tool (4, 4): after braking it tells whether the joint's sensor can be believed."""
+        if not (np.isfinite(self._settled) and time > self._settled - SAMPLES / 100 and len(self._poses) < SAMPLES):
+            return
+        self._poses.append((told.copy(), pose))
+        if len(self._poses) == SAMPLES:
+            self._measure(time)
+
+    # ---- what it does ------------------------------------------------------------------------------------------------
+
+    def _act(self, time: float, what: What, why: str, *, joint: str | None = None) -> None:
+        self.actions.append(Action(time, what, why, joint=joint))
+
+    def _stop(self, time: float, why: str) -> None:
+        self.over, self.pace = True, 0.0
+        self._act(time, "stop", why)
+
+    def _at_once(self, time: float, joint: str, behind: float, v: float, wanted: float) -> None:
+        assert self._tracking is not None
+        y = abs(behind) / self._tracking[self.arm.joint_index(joint)]
+        if abs(v) < STILL and y > BEHIND:
+            self._brake(time, joint, "it does not move")
+        elif y > FAR_OFF and abs(v - wanted) > FASTER and abs(v) > RUNS:
+            self._brake(time, joint, "it runs away")
+        elif self.pace == 1.0:
+            self.pace = SLOW
+            self._act(time, "slow", "its fault is not known yet", joint=joint)
+
+    def _brake(self, time: float, joint: str, why: str) -> None:
+        j = self.arm.joint_index(joint)
+        self._brakes.brake(joint)
+        self.law.mask[j], self.pace, self._decided = 0.0, 1.0, True
+        self._settled, self._poses = time + SETTLED + SAMPLES / 100, []
+        self._act(time, "brake", why, joint=joint)
+
+    def _measure(self, time: float) -> None:
+        """Where a braked joint is by the tool's pose, ``b = sum J_i' c / sum J_i' J_i``; metres and radians weighted alike."""
+        (j,) = np.flatnonzero(self.law.mask == 0)[-1:]
+        rows = np.array([q for q, _ in self._poses])
+        measured = np.array([pose for _, pose in self._poses])
+        for _ in range(3):
+            poses, along = self.arm.forward_kinematics(rows), self.arm.jacobian(rows)[:, :, j]
+            turns = rotation_vectors(measured[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1))
+            c = np.concatenate([measured[:, :3, 3] - poses[:, :3, 3], turns], axis=1)
+            rows[:, j] += (c * along).sum() / max(float((along**2).sum()), 1e-12)
+        off = float(np.mean([row[j] - q[j] for row, (q, _) in zip(rows, self._poses, strict=True)]))
+        if abs(off) > SLACK:
+            self._true[int(j)] = float(rows[-1, j])
+            factor, unit = self.arm.joints[int(j)].shown
+            why = f"by the tool's pose it is {factor * off:.3g} {unit} off what its sensor says"
+            self._act(time, "measure", why, joint=self.arm.joint_names[int(j)])
+
+    def _end_of_law(self, time: float, q: Array) -> Array:
+        """The law commands nothing more, or has no answer: at the target, or elsewhere."""
+        left = self.degraded
+        assert left is not None
+        self._plans = False  # once
+        found = planned(self._made_for, q, self.law.pose, left, time=time)
+        if isinstance(found, str):
+            self._stop(time, found)
+            return np.zeros(self.arm.n)
+        self._act(time, "plan", f"the law ended elsewhere; a route of {found.waypoints} waypoints takes {found.duration:.3g} s")
+        self._planned = found
+        return found.rates(time, q)

@@ -1,0 +1,272 @@
+"""The closed loop of an arm with faults: its body in MuJoCo, the monitor beside it, and the controller's reaction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.mjcf import import_mujoco, quiet
+from holdfast.control.law import Law
+from holdfast.diagnosis.monitor import Monitor
+from holdfast.errors import InputError
+from holdfast.faults.events import FaultEvent
+from holdfast.faults.injector import FaultInjector
+from holdfast.faults.scheme import Faults
+from holdfast.notice import each, says
+from holdfast.physics.body import Body
+from holdfast.physics.plant import BURST
+from holdfast.physics.servos import Servos, leads
+from holdfast.reaction.controller import Controller
+from holdfast.reaction.masked import MaskedLaw
+from holdfast.reaction.run import Ended, FaultRun, React
+
+Array = NDArray[np.float64]
+
+RATE = 1000.0  # Hz, of the control cycle without a monitor
+TIME_LIMIT = 12.0  # s
+THERE, FACING, HELD = 5e-3, np.deg2rad(1.0), 0.2  # m, rad, s: a target that is reached
+POSE_RATE = 100.0  # Hz, of the measured tool
+WAITING = 0.5  # s after which nothing more is expected
+_BAND = 2 * np.pi * 20  # rad/s, of the filter on what a sensor adds to a measured rate
+
+
+@checked
+@quiet()
+@says("simulating the faults")
+def simulate_faults(
+    law: Law,
+    q0: ArrayLike,
+    target: ArrayLike,
+    *,
+    faults: Faults | Sequence[FaultEvent] = (),
+    episode: int = 0,
+    monitor: Monitor | None = None,
+    react: React | None = None,
+    plan: bool = True,
+    body: Body | None = None,
+    servos: Servos | None = None,
+    centring: float = 0.0,
+    pose: bool = True,
+    time_limit: float = TIME_LIMIT,
+    seed: int = 0,
+) -> FaultRun:
+    """One run of the closed loop in MuJoCo: joints fail, are noticed, and the task goes on (needs ``holdfast[physics]``).
+
+    At every control cycle the law is given what the joint sensors tell, and its rates, kept within the joints' limits and
+    speeds and 10 rad/s^2, go to the servos, whose torques move a body that is not quite the arm's model. Faults begin and end
+    by the model's fields. A monitor sees what a robot would: joint sensors, references, commanded torques, and 100 times a
+    second the tool's measured pose. What follows from what it says (``react="chain"``):
+
+    * a joint that does not move while its reference goes on, or runs away, is braked 20 ms after the alarm and left out of
+      the law; so is one that is found to be locked, free-swinging, with a faulty sensor, or to have a fault of an unknown
+      kind. The arm then waits for 0.15 s; if the tool is measured it finds out whether the joint is where its sensor says;
+    * with a weak motor or more friction the arm goes on at half the speed; a joint whose motor can no longer carry
+      1.2 times the arm's weight is braked;
+    * where something pushes the arm it goes on at 0.3 of the speed, and after 1 s as before;
+    * where the law ends off the target, :func:`holdfast.recover` plans a route, once; planning takes no simulated time. If
+      it finds no route, the arm stops.
+
+    A brake stops its joint at once. One fault at a time is looked for.
+
+    Args:
+        law: The control law, with its arm, task, gain and speed limit. The arm needs inertial data.
+        q0: (n,) configuration at the start, rad and m, at rest.
+        target: (m,) or (4, 4), as for :func:`holdfast.simulate`.
+        faults: A fault model, or the events of the run.
+        episode: Of the fault model.
+        monitor: Watches the arm, by the bounds that it was made with; it is reset.
+        react: ``chain`` with a monitor and ``none`` without one if not given; ``stop``: everything stops at the first alarm;
+            ``known``: each fault is known when it begins, without a monitor.
+        plan: Whether a route is planned, see above.
+        body: What of the robot differs from the arm's model; :class:`holdfast.Body` as it comes if not given.
+        servos: Of the joints; as they come, at the monitor's rate, if not given.
+        centring: 1/s, at which the law draws joints to the middle of their range as far as the task leaves that open.
+        pose: Whether the tool's pose is measured.
+        time_limit: s; the run ends earlier where the target is reached, or nothing more moves.
+        seed: Of the noise.
+
+    Raises:
+        InputError: Wrong shapes or options, faults that the arm cannot have, or a monitor of another arm or rate.
+        ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+        HoldfastError: MuJoCo is not installed.
+    """
+    if not 0 < time_limit < np.inf:
+        raise InputError(f"time_limit is {time_limit:g}; it must be a finite number of seconds above 0")
+    if not 0 <= centring < np.inf:
+        raise InputError(f"centring is {centring:g}; it must be a finite number of 0 or more, 1/s")
+    if react is not None and react not in get_args(React):
+        raise InputError(f"react '{react}' is not known; use {', '.join(get_args(React))}")
+    how: React = react or ("none" if monitor is None else "chain")
+    if how in ("stop", "chain") and monitor is None:
+        raise InputError(f"react='{how}' needs a monitor, which says what is wrong; make one by holdfast.diagnosis.Monitor")
+    chosen = servos or Servos(rate=RATE if monitor is None else monitor.bounds.rate)
+    if monitor is not None:
+        monitor.bounds.require(law.arm, chosen.rate)
+        monitor.reset()
+    start = law.arm.check_configurations(q0)
+    if start.ndim != 1 or not np.isfinite(start).all():
+        raise InputError(f"q0 has shape {start.shape}; a run starts from one configuration of finite numbers, ({law.arm.n},)")
+    made = Body() if body is None else body
+    masked = MaskedLaw(law, target, centring=centring)
+    robot = _Robot(law, start, made, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose)
+    tracking = None if monitor is None else monitor.bounds.tracking
+    rearm = (lambda: None) if monitor is None else monitor.rearm
+    controller = Controller(masked, law, tracking=tracking, brakes=robot.injector, rearm=rearm, react=how, plan=plan)
+    outcome = _drive(robot, controller, masked, monitor if how in ("stop", "chain") else None, how, time_limit)
+    places = np.full(law.arm.n, np.nan)
+    for event, place in robot.began.items():
+        j = law.arm.joint_index(event.joint)
+        places[j] = place if np.isnan(places[j]) else places[j]
+    return FaultRun(
+        law=law,
+        servos=chosen,
+        body=made,
+        target=masked.pose,
+        react=how,
+        events=robot.injector.events,
+        places=places,
+        actions=tuple(controller.actions),
+        verdict=None if monitor is None or how in ("none", "known") else monitor.verdict,
+        degraded=controller.degraded,
+        outcome=outcome,
+        **robot.record(),
+    )
+
+
+class _Robot:
+    """The body, its servos and its sensors, with what was recorded so far."""
+
+    def __init__(
+        self,
+        law: Law,
+        start: Array,
+        body: Body,
+        servos: Servos,
+        *,
+        faults: Faults | Sequence[FaultEvent],
+        episode: int,
+        horizon: float,
+        seed: int,
+        pose: bool,
+    ) -> None:
+        self.mujoco, self.arm, self.servos, self.body = import_mujoco(), law.arm, servos, body
+        self.model, self.stiffness, self.damping = body.model(law.arm, servos)
+        # The servos' damping is left to MuJoCo, whose integrator is implicit in it: it is stiff where two joints nearly
+        # share an axis.
+        self.model.actuator_biastype[:], self.model.actuator_biasprm[:, 2] = self.mujoco.mjtBias.mjBIAS_AFFINE, -self.damping
+        self.data = self.mujoco.MjData(self.model)
+        self.data.qpos[:] = start
+        self.mujoco.mj_forward(self.model, self.data)
+        self.injector = FaultInjector(self.model, self.data, law.arm, faults=faults, horizon=horizon)
+        self.injector.reset(episode)
+        self.rng, self.dt, self.every = np.random.default_rng([2, seed]), 1 / servos.rate, round(servos.rate / POSE_RATE) or 1
+        self.reference, self._added, self._wrong = start.copy(), np.zeros(law.arm.n), np.zeros(law.arm.n)
+        self.lead, self._pose, self._share = leads(law.arm, self.stiffness), pose, min(1.0, _BAND * self.dt)
+        self.effort = np.array([joint.effort for joint in law.arm.joints])
+        self.gravity_of = law.arm._gravity_torque_kernel.single()
+        self.began: dict[FaultEvent, float] = {}
+        self.rows: list[tuple[Array, ...]] = []
+        self.gravity = self.gravity_of(start)
+
+    def sense(self, k: int) -> tuple[Array, Array | None]:
+        """What joint sensors tell in cycle k, and the tool's measured pose if there is a sample."""
+        self.injector.before_step(k * self.dt)
+        for event, place in self.injector.places.items():
+            self.began.setdefault(event, place)
+        true = self.data.qpos
+        told = self.injector.read(true, reference=self.reference) + self.rng.normal(0, self.body.joint, self.arm.n)
+        # The rate as a good observer of the same sensor tells it: the true one, and what the sensor's error adds.
+        wrong = told - true
+        self._added = self._added + self._share * ((wrong - self._wrong) / self.dt - self._added)
+        self._wrong, self.v = wrong, self.data.qvel + self._added
+        if not self._pose or k % self.every:
+            return told, None
+        return told, self.body.measured(self.arm.forward_kinematics(true[None]), self.rng)[0]
+
+    def move(self, told: Array, rates: Array, mask: Array) -> Array:
+        """One cycle with commanded rates; the torque of the motors (n,) as it is recorded."""
+        ahead = np.minimum(np.maximum(self.reference + self.dt * rates, told - self.lead), told + self.lead)
+        inside = np.clip(ahead, np.minimum(self.arm.lower, told), np.maximum(self.arm.upper, told))
+        self.reference = np.where(mask > 0, inside, told)
+        self.gravity = self.gravity_of(told)
+        drive = self.stiffness * (self.reference - told) + self.damping * (rates - self._added) + self.gravity
+        torque = np.clip(drive - self.damping * self.data.qvel, -self.effort, self.effort)
+        self.data.ctrl[:] = drive
+        self.injector.before_step(self.injector.time)
+        self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
+        return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
+
+    def note(self, true: Array, told: Array, torque: Array, pose: Array | None, off: tuple[float, float]) -> None:
+        """Record a cycle."""
+        self.rows.append(
+            (true, told, self.reference, torque, np.full(16, np.nan) if pose is None else pose.ravel(), np.array(off))
+        )
+
+    def record(self) -> dict[str, Array]:
+        """The fields of :class:`FaultRun` that are rows over time."""
+        from scipy.spatial.transform import Rotation
+
+        q, told, reference, torque, poses, off = (np.array(part) for part in zip(*self.rows, strict=True))
+        poses = poses.reshape(-1, 4, 4)
+        seen = np.isfinite(poses[:, 0, 0])
+        quat = np.full((len(q), 4), np.nan)
+        if seen.any():
+            quat[seen] = Rotation.from_matrix(poses[seen, :3, :3]).as_quat()
+        return {
+            "time": np.arange(len(q)) * self.dt,
+            "q": q,
+            "told": told,
+            "reference": reference,
+            "torque": torque,
+            "x": poses[:, :3, 3],
+            "quat": quat,
+            "miss": off[:, 0],
+            "turn": off[:, 1],
+        }
+
+
+@dataclass
+class _Ends:
+    """Counts of cycles that decide that a run is over."""
+
+    there: int = 0
+    idle: int = 0
+
+
+def _drive(robot: _Robot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float) -> Ended:
+    """The run, and how it ended."""
+    dt, ends, off = robot.dt, _Ends(), (math.inf, math.inf)
+    last = max((event.onset for event in robot.injector.events), default=0.0)
+    for k in each("control cycles", range(int(np.ceil(limit / dt))), most=True, every=1000):
+        time, true = k * dt, robot.data.qpos.copy()
+        told, pose = robot.sense(k)
+        if k % robot.every == 0:
+            off = law.distance(true)
+            ends.there = ends.there + robot.every if off[0] <= THERE and off[1] <= FACING else 0
+        if react == "known":
+            for event in robot.injector.active:
+                controller.know(time, event.kind, event.joint, robot.began[event])
+        if pose is not None:
+            controller.feel(time, told, pose)
+        rates = controller.rates(time, told)
+        torque = robot.move(told, rates, law.mask)
+        robot.note(true, told, torque, pose, off)
+        if monitor is not None and not controller.reacted:
+            verdict = monitor.step(told, robot.reference, torque, pose=pose)
+            behind = robot.reference - told
+            controller.hear(time, verdict, behind=behind, v=robot.v, wanted=rates, gravity=robot.gravity)
+        speed = float(np.abs(robot.data.qvel).max())
+        if not speed < BURST:
+            return "unstable"
+        if ends.there * dt >= HELD:
+            return "reached"
+        ends.idle = ends.idle + 1 if controller.idle(rates) and speed < 0.05 and time > last else 0
+        if ends.idle * dt > WAITING:
+            return "stopped" if controller.over else "missed"
+    return "stopped" if controller.over else "missed"

@@ -1,0 +1,87 @@
+"""A control law that is told which joints no longer follow."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.task import target_poses
+from holdfast.control.law import Law
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.recall import recalled
+from holdfast.solvers.inverse_kinematics import task_error
+
+Array = NDArray[np.float64]
+
+NEAR = 2e-3  # rad or m: a joint so near to its limit is at it, whatever the noise
+
+
+@recalled
+def masked_kernel(law: Law) -> Kernel:
+    """``(q, p, R, mask, pull) -> rates, miss, turn``: joint rates (n,) of the law with the columns of masked joints left out.
+
+    ``pull`` (n,) are rates that an objective would like; what of them moves no row of the task is added. ``miss`` and
+    ``turn`` are the norms of the error's linear part, m, and of its angular part, rad.
+    """
+    arm, task = law.arm, law.task
+    q, mask, pull = kinematics.joint_symbols(arm), ca.SX.sym("mask", arm.n), ca.SX.sym("pull", arm.n)
+    place, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+    error, _ = task_error(arm, task, q, place, rotation)
+    jacobian = law.jacobian(q) @ ca.diag(mask)
+    wish = mask * pull
+    rates = mask * (law.inverse(jacobian, law.scaled(law.command(error)) - jacobian @ wish) + wish)
+    parts = [ca.norm_2(ca.SX(ca.DM(task.rows[:, some].T)) @ error) for some in (slice(0, 3), slice(3, 6))]
+    return Kernel("law with a mask", [q, place, rotation, mask, pull], [ca.vertcat(rates, *parts)])
+
+
+class MaskedLaw:
+    """One step after the other towards a target.
+
+    Args:
+        law: The law.
+        target: (4, 4) pose, or the task's rows (m,), m.
+        centring: 1/s, at which joints with two limits are drawn to their middle as far as the task leaves it open.
+
+    Attributes:
+        pose: (4, 4) of the target.
+        mask: (n,) 1 for joints that follow, 0 for the others.
+        miss, turn: Of the last step: how far the tool was from its target, m and rad.
+    """
+
+    def __init__(self, law: Law, target: ArrayLike, *, centring: float) -> None:
+        poses, rows = target_poses(law.task, target)
+        arm, n = law.arm, law.arm.n
+        self.pose = np.eye(4)
+        if rows is None:
+            self.pose = np.asarray(poses[0])
+        else:
+            self.pose[:3, 3] = rows[0] @ law.task.rows[:, :3]
+        self.mask, self.miss, self.turn = np.ones(n), np.inf, np.inf
+        bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
+        self._middle = np.where(bounded, (np.where(bounded, arm.lower, 0) + np.where(bounded, arm.upper, 0)) / 2, 0.0)
+        self._pull, self._n = np.where(bounded, centring, 0.0), n
+        self._lower, self._upper = arm.lower + NEAR, arm.upper - NEAR
+        self._run = masked_kernel(law).single()
+        self._row = np.concatenate([np.zeros(n), self.pose[:3, 3], self.pose[:3, :3].ravel(), np.ones(n), np.zeros(n)])
+
+    def rates(self, q: Array, *, mask: Array | None = None) -> Array:
+        """Commanded rates (n,) at a configuration (n,), rad/s and m/s. A joint at its limit is not told to pass it."""
+        n, row = self._n, self._row
+        follow = self.mask if mask is None else mask
+        row[:n], row[n + 12 : 2 * n + 12], row[2 * n + 12 :] = q, follow, self._pull * (self._middle - q)
+        out = self._run(row)
+        rates = out[:n].copy()
+        if mask is None:
+            self.miss, self.turn = float(out[n]), float(out[n + 1])
+        passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
+        if passing.any():
+            rates = self.rates(q, mask=np.where(passing, 0.0, follow))
+        return rates
+
+    def distance(self, q: Array) -> tuple[float, float]:
+        """Of the tool from its target at a configuration (n,), m and rad."""
+        self._row[: self._n] = q
+        out = self._run(self._row)
+        return float(out[self._n]), float(out[self._n + 1])

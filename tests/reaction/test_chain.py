@@ -1,0 +1,141 @@
+"""The chain: a joint fails, the monitor names it, the controller reacts, the tool reaches its target."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.errors import HoldfastError, InputError
+from holdfast.faults import FaultEvent
+from holdfast.reaction.masked import MaskedLaw
+
+pytest.importorskip("mujoco")
+BODY = hf.Body(3)
+START, GOAL = np.array([0.0, 0.0, 0.0, -1.5, 0.0, 1.5, 0.0]), np.array([0.3, 0.4, 0.6])
+
+
+@pytest.fixture(scope="module")
+def law():
+    return hf.control.damped(hf.arms.load("panda"), 0.02, task="position", gain=2.0, speed_limit=0.25)
+
+
+@pytest.fixture(scope="module")
+def monitor(law):
+    goals = GOAL + np.array([[0, 0, 0], [0.1, 0, -0.1], [0, -0.6, 0], [0, -0.2, 0.1]])
+    logs = [hf.simulate_faults(law, START, goal, body=BODY, seed=k).require_ok().log() for k, goal in enumerate(goals)]
+    return hf.diagnosis.Monitor(
+        law.arm, hf.diagnosis.calibrate(law.arm, logs, factor=2.0, coulomb=[0.5] * 7, viscous=[0.3] * 7)
+    )
+
+
+def run(law, *faults, **options):
+    return hf.simulate_faults(law, START, GOAL, faults=faults, body=BODY, seed=9, **options)
+
+
+def test_a_masked_law_is_that_of_the_columns_left(law, rng):
+    """Beside NumPy's least squares of the other columns, and the projection onto what they leave open."""
+    arm, centring = law.arm, 0.3
+    masked = MaskedLaw(law, GOAL, centring=centring)
+    for _ in range(5):
+        q = rng.uniform(0.8 * arm.lower, 0.8 * arm.upper)
+        masked.mask = np.ones(7)
+        masked.mask[rng.choice(7, 2, replace=False)] = 0
+        error = GOAL - arm.forward_kinematics(q)[:3, 3]
+        size = 2.0 * np.linalg.norm(error)
+        v = 2.0 * error * min(1.0, 0.25 / size)
+        j = arm.jacobian(q)[:3] * masked.mask
+        inverse = j.T @ np.linalg.inv(j @ j.T + 0.02**2 * np.eye(3))
+        pull = masked.mask * centring * ((arm.lower + arm.upper) / 2 - q)
+        assert masked.rates(q) == pytest.approx(inverse @ (v - j @ pull) + pull, abs=1e-9)
+        assert (masked.miss, masked.turn) == (pytest.approx(np.linalg.norm(error)), 0.0)
+    at = arm.upper.copy()
+    assert (masked.rates(at) <= 0).all()
+
+
+def test_a_locked_joint_is_named_braked_and_left_out(law, monitor):
+    fault = FaultEvent("locked", "panda_joint4", 0.5)
+    blind, chain = run(law, fault), run(law, fault, monitor=monitor)
+    assert (blind.actions, blind.noticed) == ((), np.inf)
+    assert chain.require_ok().verdict.joint == "panda_joint4"
+    assert 0 < chain.delay < 0.1
+    brake = next(a for a in chain.actions if a.what == "brake")
+    assert brake.joint == "panda_joint4"
+    assert np.ptp(chain.q[chain.time > brake.time + 0.1, 3]) < 1e-4
+    assert list(chain.degraded.locked) == ["panda_joint4"]
+    true = np.linalg.norm(chain.poses[-200:, :3, 3] - GOAL, axis=1)
+    assert (true < 5.1e-3).all()
+    again = run(law, fault, monitor=monitor)
+    assert chain.told.tobytes() == again.told.tobytes()
+
+
+def test_a_weak_joint_goes_on_slowly_and_a_frozen_sensor_is_measured_by_the_tool(law, monitor):
+    weak = run(law, FaultEvent("weak", "panda_joint2", 0.5, parameters={"gain": 0.3}), monitor=monitor).require_ok()
+    assert [a.what for a in weak.actions][-1] in ("slow", "brake")
+    fault = FaultEvent("sensor_freeze", "panda_joint4", 0.5)
+    with pytest.raises(HoldfastError, match="did not reach its target"):
+        run(law, fault, time_limit=3.0).require_ok()
+    frozen = run(law, fault, monitor=monitor).require_ok()
+    assert [a.what for a in frozen.actions if a.joint][-2:] == ["brake", "measure"]
+    assert frozen.degraded.locked["panda_joint4"] == pytest.approx(frozen.q[-1, 3], abs=3e-3)
+
+
+def test_everything_stops_and_what_is_known_at_once(law, monitor):
+    fault = FaultEvent("limp", "panda_joint2", 0.5)
+    stopped = run(law, fault, monitor=monitor, react="stop", time_limit=4.0)
+    assert (stopped.outcome, [a.what for a in stopped.actions]) == ("stopped", ["alarm", "stop"])
+    known = run(law, fault, react="known")
+    assert [a.time for a in known.actions][:2] == pytest.approx([0.5, 0.5])
+    assert np.ptp(known.q[known.time > 0.6, 1]) < 1e-4
+    assert known.places[1] == pytest.approx(known.q[500, 1], abs=1e-3)
+
+
+def test_where_the_law_ends_off_its_target_a_route_is_planned_and_followed(law):
+    start, goal = [-2.05, -0.14, 1.13, -1.12, -0.88, 0.52, 1.94], [-0.125, -0.026, 0.623]
+    faults = [FaultEvent("locked", "panda_joint3", 0.3)]
+    made = [hf.simulate_faults(law, start, goal, faults=faults, body=BODY, react="known", plan=plan) for plan in (False, True)]
+    assert [one.outcome for one in made] == ["missed", "reached"]
+    assert made[1].actions[-1].what == "plan"
+    assert (made[1].q >= law.arm.lower - 0.03).all()
+    assert (made[1].q <= law.arm.upper + 0.03).all()
+
+
+def test_a_healthy_run_as_a_record_is_its_own_measurement(law):
+    healthy = run(law)
+    log, seen = healthy.log(), np.isfinite(healthy.x[:, 0])
+    assert (healthy.delay, seen[:21].nonzero()[0].tolist()) == (np.inf, [0, 10, 20])
+    assert np.abs(log.x[seen] - healthy.poses[seen, :3, 3]).max() < 6 * BODY.position
+    assert np.std(healthy.told - healthy.q) == pytest.approx(BODY.joint, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"react": "chain"}, "needs a monitor"),
+        ({"time_limit": 0.0}, "time_limit is 0"),
+        ({"centring": -1.0}, "centring is -1"),
+        ({"faults": [FaultEvent("locked", "elbow", 0.1)]}, "the joints are panda_joint1"),
+    ],
+)
+def test_bad_input(law, options, words):
+    with pytest.raises(InputError, match=words):
+        hf.simulate_faults(law, START, GOAL, **options)
+
+
+def test_bodies():
+    with pytest.raises(InputError, match="below 1"):
+        hf.Body(mismatch=1.0)
+    with pytest.raises(InputError, match="coulomb of the body is -1"):
+        hf.Body(coulomb=-1.0)
+
+
+def test_lock_times_of_drawn_faults_in_the_kinematic_loop(law):
+    faults = hf.faults.Faults([hf.faults.locked(onset=(0.2, 2.0), probability=0.7)], seed=4)
+    batch = faults.batch(law.arm, episodes=4)
+    runs = hf.simulate(law, np.tile(START, (4, 1)), GOAL, locked=batch.lock_times)
+    for k, events in enumerate(batch.episodes):
+        locks = events.locks()
+        one = hf.simulate(law, START, GOAL, locked=list(locks), time=list(locks.values()) or 0.0)
+        assert runs.q_final[k] == pytest.approx(one.q_final, abs=1e-9)
+    with pytest.raises(InputError, match="limp"):
+        hf.faults.Faults([hf.faults.limp(onset=1.0)]).draw(law.arm).locks()

@@ -1,0 +1,111 @@
+"""What follows from each verdict, one after the other, without a robot."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.diagnosis import Verdict
+from holdfast.reaction.controller import Controller
+
+JOINTS = hf.arms.load("panda").joint_names
+TRACKING = np.full(7, 1e-3)
+
+
+class Robot:
+    """Brakes and a monitor that are only counted."""
+
+    def __init__(self, react="chain", rates=0.1):
+        self.braked, self.rearmed, arm = [], 0, hf.arms.load("panda")
+        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0)
+        self.controller = Controller(
+            law, SimpleNamespace(arm=arm), tracking=TRACKING, brakes=self, rearm=self.rearm, react=react, plan=False
+        )
+
+    def brake(self, joint):
+        self.braked.append(joint)
+
+    def rearm(self):
+        self.rearmed += 1
+
+    def hear(self, time, *, behind=0.0, v=0.1, wanted=0.1, gravity=0.0, **verdict):
+        told = {"joint": JOINTS[1], "candidates": (), **verdict}
+        rows = {name: np.full(7, x) for name, x in (("behind", behind), ("v", v), ("wanted", wanted), ("gravity", gravity))}
+        self.controller.hear(time, Verdict(True, 1.0, **told), **rows)
+
+    def did(self):
+        return [action.what for action in self.controller.actions]
+
+
+@pytest.mark.parametrize("kind", ["locked", "limp", "standstill", "sensor"])
+def test_what_stops_a_joint_is_braked(kind):
+    robot = Robot()
+    robot.hear(1.0, kind=kind)
+    assert (robot.braked, robot.did(), robot.controller.reacted) == ([JOINTS[1]], ["alarm", "brake"], True)
+    assert robot.controller.law.mask.tolist() == [1, 0, 1, 1, 1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("found", "what"),
+    [
+        ({"behind": 2e-3, "v": 0.0}, "brake"),  # it does not move
+        ({"behind": 9e-3, "v": 0.5}, "brake"),  # it runs away
+        ({"behind": 0.5e-3, "v": 0.0}, "slow"),
+        ({"behind": 9e-3, "v": 0.15}, "slow"),
+    ],
+)
+def test_at_once_where_the_kind_is_not_known(found, what):
+    robot = Robot()
+    robot.hear(1.0, **found)
+    assert robot.did() == ["alarm"]  # 20 ms are given to the joint's name
+    robot.hear(1.02, **found)
+    assert robot.did() == ["alarm", what]
+
+
+def test_a_weak_joint_is_slowed_and_braked_if_it_cannot_carry_the_arm():
+    """87 N m of effort: a tenth carries 7 N m with a fifth more, and not 8."""
+    for gravity, expected in ((7.0, "slow"), (8.0, "brake")):
+        robot = Robot()
+        robot.hear(1.0, kind="weak", loss=0.9, gravity=gravity)
+        assert robot.did() == ["alarm", expected]
+    robot = Robot()
+    robot.hear(1.0, kind="sluggish", gravity=50.0)
+    robot.hear(1.1, kind="sluggish", gravity=50.0)
+    assert (robot.did(), robot.controller.pace) == (["alarm", "slow"], 0.5)
+    robot.hear(1.3, kind="sensor")  # the tool's pose tells more
+    assert robot.braked == [JOINTS[1]]
+
+
+def test_a_push_slows_the_arm_for_a_second_and_blames_nobody():
+    robot = Robot()
+    robot.hear(1.0, kind="contact", joint=None)
+    robot.hear(1.5, kind="contact", joint=None)
+    assert (robot.did(), robot.controller.pace) == (["alarm", "slow"], 0.3)
+    robot.hear(2.01, kind="contact", joint=None)
+    assert (robot.did()[-1], robot.controller.pace, robot.rearmed, robot.braked) == ("resume", 1.0, 1, [])
+    assert not robot.controller.reacted
+
+
+def test_a_joint_that_stays_unknown_stops_the_arm_and_so_does_any_alarm_without_a_chain():
+    robot = Robot()
+    robot.hear(1.0, kind="sensor", joint=None)
+    robot.hear(3.1, kind="sensor", joint=None)
+    assert (robot.did(), robot.controller.over) == (["alarm", "stop"], True)
+    stopped = Robot(react="stop")
+    stopped.hear(1.0)
+    assert (stopped.did(), stopped.braked) == (["alarm", "stop"], [])
+
+
+def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range():
+    robot, arm = Robot(rates=50.0), hf.arms.load("panda")
+    middle = (arm.lower + arm.upper) / 2
+    rates = np.array([robot.controller.rates(k * 1e-3, middle) for k in range(600)])
+    assert np.abs(np.diff(rates, axis=0)).max() <= 10.0 * 1e-3 + 1e-12
+    assert rates[-1] == pytest.approx(min(joint.velocity for joint in arm.joints))
+    near = robot.controller.rates(0.6, arm.upper - 0.05)
+    for k in range(601, 900):
+        near = robot.controller.rates(k * 1e-3, arm.upper - 0.05)
+    assert near == pytest.approx(np.sqrt(2 * 10.0 * 0.05))
