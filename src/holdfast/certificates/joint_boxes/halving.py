@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.tree import SPLIT, UNDECIDED
-from holdfast.certificates.verifier import MOST_LEAVES
+from holdfast.certificates.verified.tree import MOST_LEAVES
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]

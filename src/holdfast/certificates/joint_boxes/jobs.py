@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from holdfast.certificates.crew import Effort, Stop
 from holdfast.certificates.joint_boxes.halving import LEFT, Halving, Test
 from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState
-from holdfast.certificates.verifier import MOST_LEAVES
+from holdfast.certificates.verified.tree import MOST_LEAVES
 from holdfast.engine.memory import Parts
 
 Array = NDArray[np.float64]
