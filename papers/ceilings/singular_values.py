@@ -84,7 +84,7 @@ def climbed(j: Array, k: int, levers: str) -> Array:
         best = np.maximum(best, value)
         done = step / STEPS
         low = eigenvalues.min(axis=(1, 2), keepdims=True)
-        weights = np.exp(-(3 * 1000**done) * (eigenvalues / np.maximum(low, 1e-9) - 1))
+        weights = np.exp(-(60 * 50**done) * (eigenvalues / np.maximum(low, 1e-9) - 1))
         weights /= weights.sum(axis=(1, 2), keepdims=True)
         half = vectors * np.sqrt(weights)[:, :, None, :]
         pull = (half @ np.swapaxes(half, 2, 3)) @ j[:, None]  # (B, F, m, n)

@@ -89,7 +89,10 @@ def main() -> None:
     arm = hf.arms.load(chosen.arm)
     bounds = bounds_of(arm, chosen.robots)
     false = alarms(arm, bounds, chosen.robots, chosen.hours)
-    rows = [row(arm, bounds, kind, chosen.count) for kind in KINDS]
+    rows = []
+    for kind in KINDS:
+        rows.append(row(arm, bounds, kind, chosen.count))
+        print(*rows[-1], sep=" | ", flush=True)
     made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
     lines = [
         "# Faults in simulated records",
@@ -113,9 +116,11 @@ def main() -> None:
         "mm, free-swinging 46 / 88 ms. A joint that is not asked to move, or carries next to nothing, is not found. "
         "Sluggish: weak or more friction; where gravity is small nothing tells them apart.",
         "",
-        *probes.table(chosen.probes),
     ]
-    (HERE / "RESULTS.md").write_text("\n".join(lines), encoding="utf-8")
+    results = HERE / "RESULTS.md"
+    results.write_text("\n".join(lines), encoding="utf-8")
+    lines += probes.table(chosen.probes)
+    results.write_text("\n".join(lines), encoding="utf-8")
     print("\n".join(lines))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -15,8 +15,13 @@ import numpy as np
 from holdfast.faults import FaultEvent, FaultWrapper
 
 HERE = Path(__file__).parent
+ONSET = 0.1  # s
 STEPS, LATER = 200, 100  # after the onset; "later" counts from there
-KINDS: dict[str, dict[str, float]] = {"locked": {}, "limp": {}, "weak": {"gain": 0.3}}
+KINDS: dict[str, Callable[[str], FaultEvent]] = {
+    "locked": lambda joint: FaultEvent("locked", joint, ONSET),
+    "limp": lambda joint: FaultEvent("limp", joint, ONSET),
+    "weak": lambda joint: FaultEvent("weak", joint, ONSET, parameters={"gain": 0.3}),
+}
 PACKAGES = ("holdfast", "numpy", "mujoco", "gymnasium", "gymnasium-robotics", "robosuite")
 HEAD = ["environment", "joints", "kind", "off at most, mrad", "after 100 steps, mrad", "largest torque, N m", "restored"]
 
@@ -51,18 +56,18 @@ def rows(name: str) -> list[list[str]]:
     """A line for each kind: the worst of up to eight joints."""
     env, found = made(name), []
     joints = driven(env)[:8]
-    for kind, parameters in KINDS.items():
+    for kind, event_of in KINDS.items():
         largest = later = torque = 0.0
         whole = True
         for joint in joints:
-            event = FaultEvent(kind, joint, 0.1, parameters=parameters)
+            event = event_of(joint)
             wrapped = FaultWrapper(env, [event], joints=joints, observes={joint: ()})
             wrapped.reset(seed=1)
             injector = wrapped.injector
             model, data = injector.model, injector.data
             before = fields(model)
             place, dof, rng = model.joint(joint).qposadr[0], injector.dofs[joints.index(joint)], np.random.default_rng(0)
-            told = []
+            told: list[float] = []
             while len(told) < STEPS:
                 wrapped.step(rng.uniform(env.action_space.low, env.action_space.high).astype(env.action_space.dtype))
                 if wrapped.fault["active"]:

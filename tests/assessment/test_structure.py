@@ -89,3 +89,24 @@ def test_sentences_for_people():
     assert "No single joint" in explain(arm, position, [])
     ur5 = arms.load("ur5")
     assert "not redundant" in explain(ur5, structure(ur5, "pose"), structures(ur5))
+
+
+@pytest.mark.parametrize(
+    ("name", "task", "sets"),
+    [
+        ("ur5", "position", ["shoulder_pan_joint+wrist_2_joint"]),
+        ("panda", "position", ["panda_joint4+panda_joint5+panda_joint6"]),
+        ("pa10-9dof", "pose", ["joint1+joint2+joint6", "joint4+joint5+joint6", "joint4+joint8+joint9"]),
+    ],
+)
+def test_sets_of_joints_that_end_a_task_together(name, task, sets):
+    """Those that the specification's table of market arms has at zero, and by the rank of the reduced Jacobian."""
+    arm = arms.load(name)
+    found = structure(arm, task)
+    assert set(sets) <= {"+".join(arm.joint_names[k] for k in some) for some in found.together}
+    assert "Sets whose locks together end it" in explain(arm, found, [])
+    j = oracles.task_jacobian(arm, np.random.default_rng(98).uniform(-3, 3, (40, arm.n)), task)
+    for some in found.together:
+        left = np.linalg.svd(np.delete(j, some, axis=2), compute_uv=False)
+        assert left[:, -1].max() < 1e-9 * left[:, 0].max()
+    assert structure(arms.load("pa10-9dof"), "position").together == ()

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
 import holdfast as hf
 from holdfast.bench.cases import TASKS, Draw, draw_failure
 from holdfast.bench.judge import Motion, trouble
+from holdfast.bench.suite import _cell
 from holdfast.paths import line
 
 pytest.importorskip("fcl")
@@ -83,6 +86,16 @@ def test_the_judge_looks_between_waypoints_of_a_path(draw):
     path = line(arm.forward_kinematics(begin), arm.forward_kinematics(end))
     case = type(base)("line", hf.Degraded(arm, locked=["panda_joint3"]), begin, rows=base.rows, path=path)
     assert trouble(case, Motion(np.array([begin, end]), share=np.array([0.0, 1.0])), None) == "path"
+
+
+def test_the_arms_own_meshes_are_kept_clear_and_go_with_the_job(draw, rng):
+    job = _cell(draw.arm, None, "line", "recover", 10, 1.0).job
+    again = pickle.loads(pickle.dumps(job))
+    assert (again, hash(again)) == (job, hash(job))
+    clearance = again.made.clearance
+    assert clearance.capsules.shape.digest == job.plan["shape"]
+    q = rng.uniform(draw.arm.lower, draw.arm.upper, (500, 7))
+    assert ((clearance(q) < 0) & clearance.sign(q)).any(), "some capsules overlap where no mesh touches another"
 
 
 def test_where_every_case_is_proved_infeasible_there_is_no_share_of_the_others():

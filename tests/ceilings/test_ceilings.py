@@ -134,3 +134,29 @@ def test_a_stored_null_space_that_is_wrong_is_refused():
     beaten = hf.ceilings.Ceiling(n=9, m=6, k=2, bound=0.2, bound_by="R2")
     with pytest.raises(hf.InputError, match="one of both is wrong"):
         beaten.verify()
+
+
+@pytest.mark.parametrize(
+    ("rates", "m", "value"),
+    [
+        ((0.3, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05), 6, 0.441588),
+        ((0.3, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05), 5, 0.624500),
+        ((0.5, 0.3, 0.1, 0.1), 2, 0.831662),
+        ((1, 1, 1, 1, 1, 1, 1), 6, sqrt(1 / 7)),
+    ],
+)
+def test_the_best_average_over_failures_at_known_rates(rates, m, value, rng):
+    """R5: attained by the null space that comes with it, and by none of many others."""
+    found = hf.ceilings.best_average(rates, m)
+    assert found.value == pytest.approx(value, abs=1e-6)
+    null, n = found.null_space, len(rates)
+    assert abs(null.T @ null - np.eye(n - m)).max() < 1e-12
+    assert np.linalg.norm(null, axis=1) == pytest.approx(found.left, abs=1e-9)
+    weight = np.array(rates) / sum(rates)
+    assert weight @ np.linalg.norm(null, axis=1) == pytest.approx(found.value, abs=1e-9)
+    others = np.linalg.norm(np.linalg.qr(rng.normal(size=(2000, n, n - m)))[0], axis=2) @ weight
+    assert 0.8 * found.value < others.max() <= found.value
+    with pytest.raises(hf.InputError, match="one positive number for each joint"):
+        hf.ceilings.best_average([0.5, -0.5, 1], 2)
+    with pytest.raises(hf.InputError, match="m must be from 1 to"):
+        hf.ceilings.best_average(rates, n)

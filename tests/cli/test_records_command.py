@@ -67,3 +67,43 @@ def test_ceilings_on_the_command_line(cli):
         code, _, err = cli("ceiling", *words)
         assert code == 2
         assert said in err
+
+
+def test_a_record_as_urdf_and_the_book_as_a_folder(tmp_path, cli):
+    code, out, _ = cli("records", "show", "pose-9R-k2-001", "--urdf")
+    assert code == 0
+    file = tmp_path / "arm.urdf"
+    file.write_text(out, encoding="utf-8")
+    record = hf.designs.record("pose-9R-k2-001")
+    assert hf.indices.relative_manipulability(hf.Arm.from_urdf(file), "pose", 2)(record.q) == pytest.approx(record.data.value)
+    assert "is a null space alone" in cli("records", "show", "jacobian-9-6-2-001", "--urdf")[2]
+    book = tmp_path / "book"
+    assert cli("records", "list", "--out", str(book))[0] == 0
+    page = (book / "records.html").read_text(encoding="utf-8")
+    for kind in ("yaml", "urdf"):
+        assert f'href="pose-9R-k2-001.{kind}"' in page
+    assert hf.designs.record(str(book / "pose-9R-k2-001.yaml")).id == "pose-9R-k2-001"
+
+
+def test_arms_from_files_of_numbers(tmp_path, cli):
+    file = tmp_path / "null.csv"
+    np.savetxt(file, hf.ceilings.look_up(n=4, m=2, k=1).null_space, delimiter=",")
+    code, out, _ = cli(
+        "synthesise", str(file), "--null-space", "--task", "planar", "--starts", "1", "--out", str(tmp_path / "a")
+    )
+    assert code == 0
+    assert "no arm can beat 0.707107" in out
+    assert hf.arms.resolve(str(tmp_path / "a" / "arm-1.yaml")).n == 4
+    assert "orders are judged for poses" in cli("synthesise", str(file), "--null-space", "--task", "planar", "--judge")[2]
+    file.write_text("1, 2\n3, x\n", encoding="utf-8")
+    assert "null.csv, line 2: '3, x' is no row of numbers" in cli("synthesise", str(file))[2]
+    file.write_text("1 2\n3\n", encoding="utf-8")
+    assert "line 2: 1 numbers; the first row has 2" in cli("synthesise", str(file))[2]
+
+
+def test_the_least_singular_value_and_designs_without_slopes(cli):
+    found = json.loads(cli("ceiling", "7", "pose", "--singular-value", "1", "--json")[1])
+    assert found["bound"] == pytest.approx(3**-0.5)
+    code, _, told = cli("design", "planar-3r", "--vary", "a1=0.5..2", "--maximise", "self-motion-size", "--keep-reach")
+    assert code == 2
+    assert "--keep-reach to that and to tolerant-workspace" in told

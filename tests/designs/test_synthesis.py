@@ -6,6 +6,7 @@ import yaml
 
 import holdfast as hf
 from holdfast.designs.synthesis.axes import axes_of, poses_of
+from holdfast.designs.synthesis.orders import distinct_orders
 
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 
@@ -109,6 +110,23 @@ def test_a_reversed_order_is_the_same_arm_read_from_the_tool(rng):
     one, other = (hf.designs.synthesise(jacobian=x, decimals=16).arms[0] for x in (j, j[:, ::-1]))
     for q in rng.uniform(-np.pi, np.pi, (20, 7)):
         assert least(one.jacobian(q)) == pytest.approx(least(other.jacobian(-q[::-1])), abs=1e-10)
+
+
+def test_orders_that_a_symmetry_makes_the_same_are_judged_once(rng, pa10_7):
+    corners = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    up = np.array([[0, 0, 1.0]] * 4) * rng.choice([-1, 1], (4, 1))
+    # Paths through the corners of a square, up to its symmetries: by the sides, and with one or two diagonals.
+    assert len(distinct_orders(up @ turn.T, corners @ turn.T + rng.normal(size=3))) == 3
+    w = rng.normal(size=(5, 3))
+    assert len(distinct_orders(w / np.linalg.norm(w, axis=1, keepdims=True), rng.normal(size=(5, 3)))) == 60
+
+
+def test_the_front_of_orders_is_that_of_fresh_samples(rng, pa10_7):
+    found = hf.designs.judge_orders(pa10_7.jacobian(rng.uniform(-1, 1, 7)), samples=100, at_most=40, thresholds=(0.1, 0.2))
+    assert (np.diff(found.lengths[found.front]) > 0).all()
+    assert (np.diff(found.fresh) > 0).all()
+    assert len(found.front) == len(found.fresh) >= 1
 
 
 def test_orders_that_cannot_be_judged(pa10):

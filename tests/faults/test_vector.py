@@ -118,6 +118,15 @@ def test_each_arm_moves_as_one_alone_written_down(law, rng):
     ]
 
 
+def test_noise_has_the_deviation_of_its_entry(law):
+    env = made(law, 300, Faults([hf.faults.sensor_noise("joint2", deviation=0.1, onset=0.0)]))
+    env.reset(seed=4)
+    observation = env.step(np.zeros((300, 3)))[0]
+    wrong = observation[:, :3] - env.q
+    assert np.std(wrong[:, 1]) == pytest.approx(0.1, rel=0.25)
+    assert not wrong[:, [0, 2]].any()
+
+
 def test_many_are_as_one_after_the_other_and_begin_anew(law, rng):
     """Row i has the episodes i, i + N, ...: the same as an environment of one arm that is reset as often."""
     faults = Faults([hf.faults.locked(onset=(0.0, 0.3)), hf.faults.sensor_bias(bias=0.1, onset=0.1, probability=0.5)], seed=5)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
@@ -13,7 +15,11 @@ from holdfast.errors import TaskError
 from holdfast.grammar import TASKS
 from holdfast.indices.determinants import RelativeManipulability
 
+Array = NDArray[np.float64]
+
 _DRAWS = 256
+_MOST, _NAMED = 3, 4  # joints of a set, and sets that are named
+_FLAT = 1e-13  # rho^2 of several joints is rounding noise
 _ZERO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
 
 
@@ -26,12 +32,15 @@ class Structure:
         redundancy: Joints minus rows; 0 or less means that any lock ends the task.
         fatal: Joints, indices from 0, without which the task is singular in every configuration.
         never: The healthy arm itself is singular for the task in every configuration.
+        together: Sets of two and three joints that do so when they lock at once and no fewer of them do; of those alone that
+            leave as many joints as the task has rows.
     """
 
     task: str
     redundancy: int
     fatal: tuple[int, ...]
     never: bool
+    together: tuple[tuple[int, ...], ...] = ()
 
     @property
     def survives(self) -> bool:
@@ -52,10 +61,27 @@ def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
     generator = np.random.default_rng(20120514)
     # Not the joint limits: a narrow range could hide what another part of it shows.
     q = generator.uniform(-np.pi, np.pi, (_DRAWS, arm.n))
-    result = RelativeManipulability(arm, t).evaluate(q)
+    index = RelativeManipulability(arm, t)
+    result = index.evaluate(q)
     fatal = tuple(np.flatnonzero(result.by_failure.max(axis=0) < _ZERO).tolist())
     never = bool((result.value == 0).all() and (result.by_failure == 0).all())
-    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never)
+    together = () if never else _together(index.task_jacobian(q), fatal)
+    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never, together=together)
+
+
+def _together(jacobians: Array, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
+    """Least sets of two and three joints whose minors of the null-space projector vanish for all Jacobians (N, m, n)."""
+    m, n = jacobians.shape[1:]
+    rows = np.linalg.svd(jacobians)[2][:, :m]
+    projector = np.eye(n) - np.swapaxes(rows, 1, 2) @ rows
+    found = [frozenset({k}) for k in fatal]
+    for size in range(2, min(_MOST, n - m) + 1):
+        for some in combinations(range(n), size):
+            if any(less <= set(some) for less in found):
+                continue
+            if np.linalg.det(projector[:, some][:, :, some]).max() < _FLAT:
+                found.append(frozenset(some))
+    return tuple(tuple(sorted(s)) for s in found if len(s) > 1)
 
 
 def structures(arm: Arm) -> list[Structure]:
@@ -79,7 +105,10 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
     if found.redundancy <= 0:
         return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
     if not found.fatal:
-        return f"No single joint of '{arm.name}' is a point of failure by structure for task '{found.task}'."
+        sets = [" + ".join(arm.joint_names[k] for k in s) for s in found.together]
+        more = f" and {len(sets) - _NAMED} more" if len(sets) > _NAMED else ""
+        also = f" Sets whose locks together end it in every configuration: {', '.join(sets[:_NAMED])}{more}." if sets else ""
+        return f"No single joint of '{arm.name}' is a point of failure by structure for task '{found.task}'.{also}"
     names = ", ".join(f"{arm.joint_names[k]} (joint {k + 1})" for k in found.fatal)
     return (
         f"Single point of failure by structure: once {names} locks, '{arm.name}' is singular for task '{found.task}' "

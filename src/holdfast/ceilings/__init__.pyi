@@ -1,3 +1,5 @@
+from holdfast.ceilings.averages import Average as Average
+from holdfast.ceilings.averages import best_average as best_average
 from holdfast.ceilings.ceiling import Ceiling as Ceiling
 from holdfast.ceilings.ceiling import CeilingTable as CeilingTable
 from holdfast.ceilings.ceiling import look_up as look_up

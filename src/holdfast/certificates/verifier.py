@@ -243,20 +243,20 @@ def _path(document: dict[str, Any], sample: int | None, workers: int, tell: Call
     while order and (room is None or room > 0):
         k = order.pop()
         picked.add(k)
-        room = None if room is None else room - len(every[k][2])
+        room = None if room is None else room - len(every[k][3])
     chosen = [slab for k, slab in enumerate(every) if k in picked]
     _, bad = _looked_at(faults, iter(chosen), workers, tell, 8)
-    parts, broken = [], {(slab[0], int(slab[1][0])) for slab, _ in bad}
+    parts, broken = [], {(slab[0], slab[1][0]) for slab, _ in bad}
     for which, lock in enumerate(document["locks"]):
-        spans = [(int(ends[0]), int(ends[1])) for k, ends, _ in every if k == which]
+        spans = [ends for k, ends, *_ in every if k == which]
         need(lock["proved"] == paths.text(paths.share(spans, document)), "volumes are not those of the slabs")
-        count, wrong = sum(len(q) for k, _, q in chosen if k == which), sum(n for slab, n in bad if slab[0] == which)
+        count, wrong = sum(len(q) for k, *_, q in chosen if k == which), sum(n for slab, n in bad if slab[0] == which)
         spans = [one for one in spans if (which, one[0]) not in broken]
         text = f"Lock of {document['arm']['joints'][lock['joint']]['name']}."
         parts.append(
             Verdict(
                 document=document | {"locked": lock["joint"], "claim": text, "gaps": paths.gaps(spans, document)},
-                leaves=sum(len(q) for k, _, q in every if k == which), accepted=count - wrong, rejected=wrong,
+                leaves=sum(len(q) for k, *_, q in every if k == which), accepted=count - wrong, rejected=wrong,
                 seconds=0.0, undecided=1 - paths.share(spans, document), shadow=frozenset(),
                 whichever=paths.share(spans, document),
             )

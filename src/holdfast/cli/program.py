@@ -34,6 +34,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "report": "start.assess:report",
     "index": "before.index",
     "ceiling": "before.ceiling",
+    "synthesise": "before.synthesise",
     "susceptibility": "before.susceptibility",
     "optimise": "before.optimise",
     "follow": "before.follow",

@@ -360,8 +360,7 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
 }
 
 const char *NAME_kind_name(NAME_kind kind) {
-    static const char *const names[] = {"unknown", "locked", "standstill", "limp", "weak",
-                                        "friction", "sluggish", "sensor", "contact"};
+    static const char *const names[] = {KIND_WORDS};
     return names[kind];
 }
 """

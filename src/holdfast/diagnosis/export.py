@@ -12,6 +12,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm import kinematics
@@ -21,11 +22,15 @@ from holdfast.diagnosis import c_text, decision, kinds
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
-from holdfast.diagnosis.separation import Array
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
 from holdfast.files.output import put
 from holdfast.notice import says
 from holdfast.result import Result
+
+Array = NDArray[np.float64]
+
+# As the enum in C has them.
+_KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +157,8 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
     named = {name: str(decision.cycles(seconds, dt)) for name, seconds in times.items()}
     named |= {name: _number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
-    return {"WITH_TORQUES": torques, **{f"CONST_{name}": value for name, value in named.items()}}
+    named_kinds = ", ".join(map(quoted, _KINDS))
+    return {"WITH_TORQUES": torques, "KIND_WORDS": named_kinds, **{f"CONST_{name}": value for name, value in named.items()}}
 
 
 def _number(value: float) -> str:

@@ -106,6 +106,7 @@ class Monitor:
     def reset(self) -> None:
         """Forget everything: the next step is the first."""
         self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
+        self._v = self._r = self._p = self._gravity = self._tau = self._low = np.zeros(self.arm.n)
         self._q: Array | None = None
         self._reference: Array | None = None
         self._last = np.zeros((SMOOTHED, 6))
@@ -179,14 +180,11 @@ class Monitor:
 
     def _observe(self, q: Array, tau: Array | None) -> None:
         n, dt = self.arm.n, self._dt
-        if self._q is None:
-            zero = np.zeros(n)
-            self._v, self._r, self._p, self._gravity = zero, zero, zero, zero
-            self._tau = self._low = zero if tau is None else tau
-            first = True
-        else:
+        first = self._q is None
+        if self._q is not None:
             self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / dt - self._v)
-            first = False
+        elif tau is not None:
+            self._tau = self._low = tau
         self._q = q
         if tau is None or self._momentum is None:
             return

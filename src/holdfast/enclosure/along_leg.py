@@ -18,7 +18,7 @@ Flags = NDArray[np.bool_]
 
 _WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: boxes of about this size are joined
 _JOINED = 20_000  # boxes at most
-_NEIGHBOURS = 3_000_000  # of them, all together, at most
+_NEIGHBOURS = 10_000_000  # of them, all together, at most
 _SLACK = 1e-12
 
 
@@ -102,12 +102,14 @@ def _through(boxes: Array) -> Flags | None:
     if not len(boxes):
         return np.zeros(0, dtype=bool)
     centre, half = boxes[:, 0], boxes[:, 1]
-    tree, near = cKDTree(centre), 2 * half.max() + _SLACK
+    widest = half.max(axis=0) + _SLACK  # of each joint on its own: as near as boxes that touch must be
+    tree, near = cKDTree(centre / widest), 2.0
     if tree.count_neighbors(tree, near, p=np.inf) > _NEIGHBOURS:
         return None
     i, j = tree.query_pairs(near, p=np.inf, output_type="ndarray").T
-    met = (np.abs(centre[i] - centre[j]) <= half[i] + half[j] + _SLACK).all(axis=1)
-    i, j = i[met], j[met]
+    for at, by in zip(centre.T, half.T, strict=True):  # joint by joint: there are many pairs
+        met = np.abs(at[i] - at[j]) <= by[i] + by[j] + _SLACK
+        i, j = i[met], j[met]
     _, label = connected_components(coo_array((np.ones(len(i)), (i, j)), shape=(len(boxes),) * 2), directed=False)
     begins, ends = centre[:, -1] - half[:, -1] <= _SLACK, centre[:, -1] + half[:, -1] >= 1 - _SLACK
     return np.asarray(np.isin(label, np.intersect1d(label[begins], label[ends])))

@@ -45,15 +45,13 @@ class FaultBatch(Result):
     def __len__(self) -> int:
         return len(self.episodes)
 
-    @property
-    def lock_times(self) -> Array:
-        """(N, n) when each joint locks, s, infinite for never: ``locked`` of :func:`holdfast.simulate`, a run an episode.
+    def times_of(self, joints: Sequence[str]) -> Array:
+        """(N, n) when each of these joints locks, s: an episode for each run of :func:`holdfast.simulate`.
 
         Raises:
-            InputError: Another fault than a lock for good, see :meth:`holdfast.faults.FaultEvents.locks`.
+            InputError: See :meth:`holdfast.faults.FaultEvents.times_of`.
         """
-        times = [events.locks() for events in self.episodes]
-        return np.array([[found.get(name, np.inf) for name in self.joints] for found in times])
+        return np.array([events.times_of(joints) for events in self.episodes])
 
     def describe(self) -> list[str]:
         """How many episodes have how many faults."""

@@ -5,9 +5,12 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.faults.entry import Kind
@@ -63,13 +66,13 @@ class FaultEvents(tuple[FaultEvent, ...]):
     def __new__(cls, events: Iterable[FaultEvent] = ()) -> FaultEvents:  # noqa: D102
         return super().__new__(cls, sorted(events, key=lambda e: (e.onset, e.joint, e.kind, e.end)))
 
-    def locks(self) -> dict[str, float]:
-        """When each joint locks, s, by name: what :func:`holdfast.simulate` takes as ``locked`` and ``time``.
+    def times_of(self, joints: Sequence[str]) -> NDArray[np.float64]:
+        """(n,) when each of these joints locks, s, infinite for never: for :func:`holdfast.simulate`.
 
         Raises:
-            InputError: A fault of another kind, or one that is over again or locks elsewhere: bodies and motors are needed.
+            InputError: Another joint, a fault of another kind, or a lock that is over again or elsewhere than at the joint.
         """
-        times: dict[str, float] = {}
+        times = np.full(len(joints), np.inf)
         for event in self:
             stays = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
             if not stays or event.parameters.get("at", "here") != "here":
@@ -77,7 +80,9 @@ class FaultEvents(tuple[FaultEvent, ...]):
                     f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
                     "--physics, or use holdfast.simulate_faults"
                 )
-            times.setdefault(event.joint, event.onset)
+            if event.joint not in joints:
+                raise InputError(f"a fault names joint '{event.joint}'; the joints are {', '.join(joints)}")
+            times[joints.index(event.joint)] = min(times[joints.index(event.joint)], event.onset)
         return times
 
     @property

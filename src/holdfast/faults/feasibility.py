@@ -115,7 +115,7 @@ def _range(arm: Arm, event: FaultEvent, place: float) -> tuple[float, float]:
 
 
 def _recovered(arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, rows: str | Task, what: str) -> Feasibility:
-    """By a motion from where the arm is, or a proof that there is none."""
+    """By a motion of the arm as it is now, or a proof that there is none."""
     found = recover(arm, left, at, goal=goal, task=rows, samples=0, clearance=False)
     if found.ok:
         return Feasibility("yes", f"a motion to the goal was found {what}", np.asarray(found.q[-1]))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +26,15 @@ from holdfast.simulation.touching import with_contacts
 Array = NDArray[np.float64]
 Method = Literal["adaptive", "rk4"]
 
+
+class Locking(Protocol):
+    """Faults that say when joints lock."""
+
+    def times_of(self, joints: Sequence[str]) -> Array:
+        """(n,), or (N, n) of N runs: when each of these joints locks, infinite for never."""
+        ...
+
+
 TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
 RADIUS = 0.1  # m
 TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
@@ -45,6 +55,7 @@ def simulate(
     step: float | None = None,
     radius: float = RADIUS,
     time: ArrayLike = 0.0,
+    faults: Locking | None = None,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     stop_at_contact: bool = False,
@@ -100,6 +111,9 @@ def simulate(
         step: Of ``rk4``, s; 0.1/Ke if not given.
         radius: Of the target in cycles, m (and rad).
         time: When the joints lock, s or cycles: one time, or one for each of them.
+        faults: In place of ``locked`` and ``time``: locks that were drawn, of an episode
+            (:class:`holdfast.faults.FaultEvents`) or, one for each run, of many (:class:`holdfast.faults.FaultBatch`). Other
+            faults need bodies and motors: :func:`holdfast.simulate_faults`.
         clearance: The shape of the arm and what it may touch, maybe with a cell; True: also itself, by capsules of an assumed
             radius. If not given it does not touch itself.
         cell: Objects around the arm, or their file. Margins are not looked at.
@@ -117,7 +131,7 @@ def simulate(
     start, single = as_configurations(law.arm, q0)
     poses, rows_wanted = target_poses(law.task, target)
     targets = poses if rows_wanted is None else rows_wanted
-    locks, shared = _locks(law, locked, time, start)
+    locks, shared = _locks(law, locked, time, start) if faults is None else _drawn(law, faults, locked)
     counts = {"q0": len(start), "target": len(targets), "locked": len(locks)}
     rows = max(counts.values()) if min(counts.values()) else 0
     for what, count in counts.items():
@@ -195,6 +209,16 @@ def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: Arra
     times = np.full((1, arm.n), np.inf)
     times[0, list(joints)] = when
     return times, True
+
+
+def _drawn(law: Law, faults: Locking, locked: object) -> tuple[Array, bool]:
+    """Likewise of faults."""
+    if not hasattr(faults, "times_of"):
+        raise InputError(f"faults is {faults!r}; give those of an episode, by draw, or of many, by batch")
+    if np.size(locked):
+        raise InputError("locked does not go with faults, which say what locks; leave one of them out")
+    times = faults.times_of(law.arm.joint_names)
+    return np.atleast_2d(times), times.ndim == 1
 
 
 def _lock_times(law: Law, locked: NDArray[Any]) -> Array:

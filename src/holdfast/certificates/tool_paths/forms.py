@@ -25,7 +25,8 @@ _STRAIGHT, _TURN = 2.91, 1.19  # of rotations: the trace in the middle, and what
 _SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
 _NEWTON, _MET = 6, 1e-10
 _ROOM = 0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
-_STRIDE, _NEAR = SEGMENT // 2, 1e-6  # of the look ahead: instants, m and rad
+_FIRST, _STRIDE, _SLOWEST = SEGMENT >> 8, SEGMENT >> 1, SEGMENT >> 14  # instants, of the look ahead
+_NEAR, _JUMP = 1e-6, 0.3  # m and rad
 _NEVER = 10.0  # m and rad: no section box is so wide
 
 
@@ -35,18 +36,22 @@ class Cells:
 
     Attributes:
         begin, stop: (N,) the slab of lock instants, in one segment.
-        start, end: (N,) the cell of the path, in one segment.
+        start, end: (N,) the cell of the path, in one segment; of one that is turned its middle, twice.
+        width: (N,) half widths of those along the tangent of the motion, in units of the file; 0: not turned.
     """
 
     begin: Ints
     stop: Ints
     start: Ints
     end: Ints
+    width: Ints
 
     @property
     def half(self) -> Array:
         """(N, 2) half widths of both, in segments."""
-        return np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT)
+        half = np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT)
+        half[:, 1] += self.width * UNIT
+        return half
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,14 +60,18 @@ class Forms:
 
     Attributes:
         q: (N, n) centres, rad.
-        follow: (N, m, columns) how free joints follow the coordinates.
+        place: (N,) middles on the path, in segments.
+        turned: (N,) whether the path is that along the tangent of the motion.
+        own: (N, m + 1, columns) how free joints, then the place on the path, follow the coordinates.
         half: (N, columns) half widths of these, the section's as small as it may be.
         only: (N, m) of the section box in which there is one solution.
         good: (N,) whether that is shown, and within the limits.
     """
 
     q: Array
-    follow: Array
+    place: Array
+    turned: Flags
+    own: Array
     half: Array
     only: Array
     good: Flags
@@ -131,23 +140,20 @@ class Following:
         goal, along = self.healthy(cells.start + cells.end, cells.end)
         rate = self.healthy(cells.begin + cells.stop, cells.stop)[1]
         at, target = self._moved(q), self._moved(goal)
-        error, own = self._missed(at, target)
-        slopes = np.concatenate([own, self._theirs(at, target)], axis=2)
+        error, ours = self._missed(at, target)
+        slopes = np.concatenate([ours, self._theirs(at, target)], axis=2)
+        turned, own = cells.width > 0, self._section(slopes, rate, along, cells.width > 0)
         d = np.zeros((len(q), 2 * n, 2 + tube + m))
+        moved = along[:, :, None] * own[:, -1:]
         d[:, self.still[0], 0] = rate[:, self.still[0]]
-        d[:, self.still[1:], 1] = along[:, self.still[1:]]
-        d[:, n:, 1] = along
-        jacobian = slopes[:, :, self.free]
-        inverse = _solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
-        d[:, self.free, :2] = -inverse @ (slopes @ d[:, :, :2])
-        d[:, self.free, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
+        d[:, self.still[1:]], d[:, n:], d[:, self.free] = moved[:, self.still[1:]], moved, own[:, :-1]
         second = self._bent(at, target, d)
         left = np.abs(slopes @ d - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1))
         half = np.concatenate([cells.half, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
         given, bend = (np.abs(d), left, second), 1 - np.eye(half.shape[1])
         s = half[:, -m:]
         for k in range(_ROUNDS + _TIGHTER):
-            e, far, turned = self._excess(error, *given, half, bend)
+            e, far, angle = self._excess(error, *given, half, bend)
             closed = np.asarray(((_MARGIN * e + _LEAST <= s) & (s < 1)).all(axis=1))
             s[:] = np.where(closed[:, None], s if k < _ROUNDS else _MARGIN * e + 1.01 * _LEAST, 1.05 * e + 2 * _LEAST)
             np.clip(np.nan_to_num(s, nan=_NEVER), 0, _NEVER, out=s)
@@ -161,51 +167,110 @@ class Following:
         closed &= (s < _ROOM * only).all(axis=1)
         good = closed & one & ((q[:, self.free] - reach >= low) & (q[:, self.free] + reach <= high)).all(axis=1)
         if m > 3:
-            good &= (turned < _TURN) & (np.einsum("nij,nij->n", at[1], target[1]) > _STRAIGHT)
-        return Forms(q, d[:, self.free], half, only, good)
+            good &= (angle < _TURN) & (np.einsum("nij,nij->n", at[1], target[1]) > _STRAIGHT)
+        place = (cells.start + cells.end) / (2 * SEGMENT)
+        if turned.any():
+            some = [x[turned] for x in given]
+            good[turned] &= self._forward(*some, half[turned], own[turned], (place - (cells.end - 1) // SEGMENT - 1)[turned])
+        return Forms(q, place, turned, own, half, only, good)
+
+    def _section(self, slopes: Array, rate: Array, along: Array, turned: Flags) -> Array:
+        """How free joints, then the place on the path, follow coordinates (N, m + 1, columns), by slopes (N, m, 2n)."""
+        m, n, tube = self.m, self.n, len(self.tube)
+        jacobian, drift = slopes[:, :, self.free], slopes[:, :, self.still[0]] * rate[:, self.still[:1]]
+        ahead = np.einsum("nmk,nk->nm", slopes[:, :, n:], along)
+        ahead += np.einsum("nmk,nk->nm", slopes[:, :, self.still[1:]], along[:, self.still[1:]])
+        inverse = _solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
+        own = np.zeros((len(slopes), m + 1, 2 + tube + m))
+        own[:, -1, 1] = 1
+        own[:, :-1, :2] = -inverse @ np.stack([drift, ahead], axis=2)
+        own[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
+        if turned.any():
+            tangent, across = _tangent(np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned])
+            # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
+            beside = (tangent[:, :-1] * rate[turned][:, self.free]).sum(axis=1) + tangent[:, -1]
+            own[turned, :, 0] = tangent * beside[:, None] - np.einsum("nkm,nm->nk", across, drift[turned])
+            own[turned, :, 1], own[turned, :, 2:] = tangent, across
+        return own
 
     def begins(self, forms: Forms, cells: Cells) -> Flags:
         """Whether configurations at all lock instants of slabs are the solutions of cells."""
         q, rate = (x[:, self.free] for x in self.healthy(cells.begin + cells.stop, cells.stop))
-        ahead = (cells.begin + cells.stop - cells.start - cells.end) / (2 * SEGMENT)
-        lock, path = forms.follow[:, :, 0], forms.follow[:, :, 1]
-        away = np.stack([q - forms.q[:, self.free] - path * ahead[:, None], (rate - lock - path) * forms.half[:, :1]], axis=2)
-        corrections = _solved(forms.follow[:, :, -self.m :], away)
-        return np.asarray((_MARGIN * np.abs(corrections).sum(axis=2) + _LEAST < forms.only).all(axis=1))
+        start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT)])
+        leaves = np.column_stack([rate, np.ones(len(q))])
+        away = (leaves - forms.own[:, :, 0]) * forms.half[:, :1]
+        return self._entered(start, away[:, :, None], forms, np.zeros(len(q), dtype=bool))
 
     def goes_on(self, before: Forms, forms: Forms) -> Flags:
-        """Whether what is found in a cell is what was found in the one before it, on the face between them."""
-        face = before.q[:, self.free] - forms.q[:, self.free]
-        face = face + before.follow[:, :, 1] * before.half[:, 1:2] + forms.follow[:, :, 1] * forms.half[:, 1:2]
+        """Whether what is found in a cell is what was found in the one before it, where that ends."""
+        end, place = self.end(before)
         kept = [k for k in range(before.half.shape[1] - self.m) if k != 1]
-        moved = (before.follow - forms.follow)[:, :, kept] * before.half[:, None, kept]
-        found = before.follow[:, :, -self.m :] * before.half[:, None, -self.m :]
-        corrections = _solved(forms.follow[:, :, -self.m :], np.concatenate([face[:, :, None], moved, found], axis=2))
-        return np.asarray((_MARGIN * np.abs(corrections).sum(axis=2) + _LEAST < forms.only).all(axis=1))
+        moved = (before.own - forms.own)[:, :, kept] * before.half[:, None, kept]
+        found = before.own[:, :, -self.m :] * before.half[:, None, -self.m :]
+        point = np.column_stack([end[:, self.free], place])
+        return self._entered(point, np.concatenate([moved, found], axis=2), forms, before.turned)
+
+    def end(self, forms: Forms) -> tuple[Array, Array]:
+        """Configurations (N, n) and places on the path (N,) where cells end, for the middles of their slabs."""
+        q = forms.q.copy()
+        q[:, self.free] += forms.own[:, :-1, 1] * forms.half[:, 1:2]
+        return q, forms.place + forms.own[:, -1, 1] * forms.half[:, 1]
+
+    def _entered(self, point: Array, away: Array, forms: Forms, turned: Flags) -> Flags:
+        """Whether all that is so far from points (N, m + 1) is where cells have one solution; ``turned``: those before."""
+        matrix = forms.own[:, :, [1, *range(-self.m, 0)]]
+        here = np.column_stack([forms.q[:, self.free], forms.place])
+        found = _solved(matrix, np.concatenate([(point - here)[:, :, None], away], axis=2))
+        most = _MARGIN * np.abs(found).sum(axis=2) + _LEAST
+        inside = (most[:, 0] < forms.half[:, 1]) | ~(turned | forms.turned)
+        return np.asarray((most[:, 1:] < forms.only).all(axis=1) & inside)
 
     def guessed(self, before: Forms, cells: Cells, middle: Array) -> Array:
         """(N, n) where to begin in cells, ``middle`` (N,) segments behind the middles of those before."""
         q = before.q.copy()
-        q[:, self.free] += before.follow[:, :, 1] * middle[:, None]
+        q[:, self.free] += before.own[:, :-1, 1] * middle[:, None]
         return self.placed(q, cells)
+
+    def ahead(self, q: Array, place: Array, base: int, by: Array) -> tuple[Array, Array]:
+        """From a configuration (n,) of the motion at a place of a segment: along its tangent by (N,), and back onto it."""
+        held, end = q[self.still[0]], np.array([base + SEGMENT])
+        z = np.tile(np.append(q, place), (len(by), 1))
+        for k in range(_NEWTON):
+            goal, along = self.healthy(np.rint(2 * SEGMENT * z[:, -1]), end)
+            z[:, self.still[1:]] = goal[:, self.still[1:]]
+            at, target = self._moved(z[:, :-1]), self._moved(goal)
+            error, own = self._missed(at, target)
+            slopes = np.concatenate([own, self._theirs(at, target)], axis=2)
+            ahead = np.einsum("nmk,nk->nm", slopes[:, :, self.n :], np.broadcast_to(along, goal.shape))
+            ahead += np.einsum("nmk,nk->nm", own[:, :, self.still[1:]], np.broadcast_to(along, goal.shape)[:, self.still[1:]])
+            tangent, across = _tangent(np.concatenate([own[:, :, self.free], ahead[:, :, None]], axis=2))
+            step = tangent * by[:, None] if k == 0 else -np.einsum("nkm,nm->nk", across, error)
+            z[:, [*self.free, -1]] += step
+            z[:, -1] = np.rint(z[:, -1] * SEGMENT) / SEGMENT
+        z[:, self.free] = np.round(z[:, self.free] / UNIT) * UNIT
+        z[:, self.still[0]] = held
+        return z[:, :-1], np.rint(z[:, -1] * SEGMENT).astype(np.int64)
 
     def finishes(self, locks: Ints) -> Flags:
         """Whether Newton's method follows the path from lock instants (N,) to its end, within the limits; a look ahead."""
         end = (len(self.knots) - 1) * SEGMENT
-        held = self.healthy(2 * locks, np.maximum(locks, 1))[0]
-        q, good, (low, high) = held.copy(), np.ones(len(locks), dtype=bool), self.limits.T
-        for at in range(int(locks.min()) // _STRIDE * _STRIDE + _STRIDE, end + 1, _STRIDE):
-            some = np.flatnonzero(good & (locks < at))
-            goal = self.healthy(np.array([2 * at]), np.array([at]))[0]
-            target, now = self._moved(goal), q[some]
+        q, (low, high) = self.healthy(2 * locks, np.maximum(locks, 1))[0], self.limits.T
+        at, step, good = locks.copy(), np.full(len(locks), _FIRST), np.ones(len(locks), dtype=bool)
+        while (some := np.flatnonzero(good & (at < end))).size:
+            to = np.minimum(at[some] + step[some], end)
+            goal, now = self.healthy(2 * to, to)[0], q[some]
+            target = self._moved(goal)
             now[:, self.still[1:]] = goal[:, self.still[1:]]
             for _ in range(_NEWTON):
                 error, slope = self._missed(self._moved(now), target)
                 if np.abs(error).max(initial=0.0) < _NEAR:
                     break
                 now[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
-            q[some] = now
-            good[some] = (np.abs(error) < _NEAR).all(axis=1) & ((now >= low) & (now <= high)).all(axis=1)
+            met = (np.abs(error) < _NEAR).all(axis=1) & ((now >= low) & (now <= high)).all(axis=1)
+            met &= (np.abs(now - q[some]) < _JUMP).all(axis=1)
+            q[some[met]], at[some[met]] = now[met], to[met]
+            step[some] = np.where(met, np.minimum(2 * step[some], _STRIDE), step[some] // 4)
+            good[some] = step[some] >= _SLOWEST
         return good
 
     # ---- kinematics --------------------------------------------------------------------------------------------
@@ -275,17 +340,38 @@ class Following:
         high, low = (rest + (np.maximum(x, 0) @ (half**2)[:, :, None])[:, :, 0] / 2 for x in (own, -own))
         return np.maximum(error + high, low - error), far[:, : self.n], far.sum(axis=1)
 
+    def _slopes(self, reach: Array, left: Array, second: Array, half: Array) -> Array:
+        """(N, m, 1 + m) above the slopes of the error less the section by the path and by the section."""
+        last = [1, *range(half.shape[1] - self.m, half.shape[1])]
+        far = (reach @ half[:, :, None])[:, :, 0]
+        slope = left[:, :, last] + np.einsum("nabc,nc->nab", np.abs(second[:, :, last]), half)
+        turn = np.zeros((len(half), 1 + self.m))
+        for chain in (slice(0, self.n), slice(self.n, None)):
+            sums, own = np.cumsum(far[:, chain], axis=1), np.cumsum(reach[:, chain][:, :, last], axis=1)
+            slope[:, : self._linear] += (np.einsum("k,nkb,nk->nb", self.chain.lengths, own, sums**2) / 2)[:, None]
+            turn += own[:, -1]
+        slope[:, self._linear :] += (turn * far.sum(axis=1)[:, None] ** 2 / 2)[:, None]
+        return slope
+
     def _contracts(self, reach: Array, left: Array, second: Array, half: Array, wide: Array) -> Flags:
         """Whether there is at most one solution in section boxes (N, m)."""
-        m = self.m
-        whole = np.concatenate([half[:, :-m], wide], axis=1)
-        far = (reach @ whole[:, :, None])[:, :, 0]
-        ours, own = np.cumsum(far[:, : self.n], axis=1), np.cumsum(reach[:, : self.n, -m:], axis=1)
-        slope = left[:, :, -m:] + np.einsum("nabc,nc->nab", np.abs(second[:, :, -m:]), whole)
-        place = np.einsum("k,nkb,nk->nb", self.chain.lengths, own, ours**2) / 2
-        turn = own[:, -1] * far.sum(axis=1)[:, None] ** 2 / 2
-        slope += np.stack([place] * self._linear + [turn] * (m - self._linear), axis=1)
+        slope = self._slopes(reach, left, second, np.concatenate([half[:, : -self.m], wide], axis=1))[:, :, 1:]
         return np.asarray((_MARGIN * (slope @ wide[:, :, None])[:, :, 0] < 0.998 * wide).all(axis=1))
+
+    def _forward(self, reach: Array, left: Array, second: Array, half: Array, own: Array, place: Array) -> Flags:
+        """Whether turned cells only go forward on the path, and end within the segment, ``place`` (N,) from where that ends."""
+        slope = self._slopes(reach, left, second, half)
+        moves = _solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
+        slower = (np.abs(own[:, -1, -self.m :]) * moves).sum(axis=1)
+        off = (np.abs(own[:, -1]) * half).sum(axis=1)
+        fine = (moves >= 0).all(axis=1) & (_MARGIN * slower < own[:, -1, 1])
+        return np.asarray(fine & (place + _MARGIN * off < 0))
+
+
+def _tangent(wide: Array) -> tuple[Array, Array]:
+    """Unit vectors (N, m + 1) that matrices (N, m, m + 1) take to 0, the last number positive, and pseudo-inverses."""
+    tangent = np.linalg.svd(wide)[2][:, -1]
+    return tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0), np.linalg.pinv(wide)
 
 
 def _twice(axes: Array, columns: Array, moves: Array) -> Array:

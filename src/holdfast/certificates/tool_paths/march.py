@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _AT_ONCE = 64  # slabs that march side by side
+_TURNED, _NARROWER, _WIDEST, _REACH = 24, 16, 0.5, 0.8  # cells in a row; half widths; the middle of one, in half widths ahead
+_PLAIN = 2  # halvings of a slab before its cells are turned
 _SHORTEST = SEGMENT >> 7  # of cells, or a quarter of their slab
 
 
@@ -27,8 +29,9 @@ class Slab:
     Attributes:
         begin, stop: Instants in one segment.
         halvings: That made it.
-        ends: Of its cells, in order.
-        centres: (n,) of each, in units of the file; 0 of joints that are not free.
+        ends: Of its cells, in order; of one that is turned less its half width, in units of the file.
+        centres: (n,) of each, in units of the file; 0 of joints that are not free. Of a cell that is turned, or the next
+            one, that of the locked joint is the place on the path, in instants from the last knot.
         step: Of the next cell.
     """
 
@@ -62,6 +65,65 @@ class Slab:
     def lengthened(self) -> None:
         """The next step: up to twice as long, but such that cells are halves of halves of a segment."""
         self.step = min(2 * self.step, self.at & -self.at, SEGMENT)
+
+
+def led(f: Following, slab: Slab, before: Forms) -> tuple[list[int], list[Ints], Forms] | None:
+    """Turned cells from where a slab is, and one behind them that is not: ends, centres, and what is found in the last."""
+    base, first = slab.at // SEGMENT * SEGMENT, not slab.ends
+    lock = np.array([slab.begin]), np.array([slab.stop])
+    q, place = f.healthy(sum(lock), lock[1])[0][0], (slab.begin + slab.stop) / (2 * SEGMENT)
+    if not first:
+        ends, at = f.end(before)
+        q, place = ends[0], float(at[0])
+    ends, centres = list[int](), list[Ints]()
+    for _ in range(_TURNED):
+        by = _WIDEST * 0.5 ** np.arange(_NARROWER)
+        middles, places = f.ahead(q, place, base, _REACH * by)
+        some = np.flatnonzero((places > base) & (places <= base + SEGMENT))
+        if not some.size:
+            return None
+        width = np.rint(by[some] / UNIT).astype(np.int64)
+        cells = Cells(*(np.repeat(x, len(some)) for x in lock), places[some], places[some], width)
+        forms = f.forms(f.placed(middles[some], cells), cells)
+        from_there = before.take(np.zeros(len(some), dtype=np.int64))
+        good = forms.good & (f.begins(forms, cells) if first else f.goes_on(from_there, forms))
+        if not good.any():
+            return None
+        best = int(good.argmax())
+        before, first = forms.take(np.array([best])), False
+        ends.append(-int(width[best]))
+        centres.append(_row(f, before, int(places[some][best]) - base))
+        if (left := _straight(f, lock, base, before)) is not None:
+            form, start, end = left
+            return [*ends, end], [*centres, _row(f, form, start - base)], form
+        end_q, end_place = f.end(before)
+        q, place = end_q[0], float(end_place[0])
+    return None
+
+
+def _straight(f: Following, lock: tuple[Ints, Ints], base: int, before: Forms) -> tuple[Forms, int, int] | None:
+    """The longest cell that is not turned behind one that is, with its start and end; None: there is none."""
+    q, place = f.end(before)
+    spread = np.abs(before.own[0, -1, 0]) * before.half[0, 0] + (np.abs(before.own[0, -1, 2:]) * before.half[0, 2:]).sum()
+    low, high = (int(np.floor((place[0] + sign * 1.01 * spread) * SEGMENT)) + (sign > 0) for sign in (-1, 1))
+    start = max(low - 1, base)
+    tries = sorted({min((high >> k) + 1 << k, base + SEGMENT) for k in range(max(1, (high - low).bit_length() - 1), 20)})
+    ends = np.array([end for end in tries if end > high], dtype=np.int64)
+    if not ends.size:
+        return None
+    count = len(ends)
+    cells = Cells(*(np.repeat(x, count) for x in lock), np.full(count, start), ends, np.zeros(count, dtype=np.int64))
+    forms = f.forms(f.solved(np.repeat(q, count, axis=0), cells), cells)
+    good = np.flatnonzero(forms.good & f.goes_on(before.take(np.zeros(count, dtype=np.int64)), forms))
+    return None if not good.size else (forms.take(good[-1:]), start, int(ends[good[-1]]))
+
+
+def _row(f: Following, form: Forms, place: int) -> Ints:
+    """A centre as the file has it."""
+    row = np.round(form.q[0] / UNIT).astype(np.int64)
+    row[f.still] = 0
+    row[f.still[0]] = place
+    return row
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,8 +214,8 @@ class March:
         f, count = self.following, len(new)
         columns = 2 + len(f.tube) + f.m
         none = Forms(
-            np.zeros((count, f.n)), np.zeros((count, f.m, columns)), np.zeros((count, columns)), np.zeros((count, f.m)),
-            np.zeros(count, dtype=bool),
+            np.zeros((count, f.n)), np.zeros(count), np.zeros(count, dtype=bool), np.zeros((count, f.m + 1, columns)),
+            np.zeros((count, columns)), np.zeros((count, f.m)), np.zeros(count, dtype=bool),
         )  # fmt: skip
         self._before = none if self._before is None else self._before.joined(none)
 
@@ -161,7 +223,8 @@ class March:
         """The next cell of each slab: found, or half as long, or given up."""
         assert self._before is not None
         f, slabs, before = self.following, self._moving, self._before
-        cells = Cells(*(np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next")))
+        ends = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
+        cells = Cells(*ends, width=np.zeros(len(slabs), dtype=np.int64))
         first = np.array([not slab.ends for slab in slabs])
         middle = before.half[:, 1] + cells.half[:, 1]
         q = f.guessed(before, cells, middle)
@@ -172,25 +235,42 @@ class March:
         forms = f.forms(q, cells)
         self.nodes += len(slabs)
         goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms))
-        good, kept = forms.good & goes_on, []
+        good, kept, turned = forms.good & goes_on, list[int](), dict[int, Forms]()
         for k, slab in enumerate(slabs):
             if good[k]:
                 slab.ends.append(slab.next)
                 slab.centres.append(rows[k])
-                if slab.at == self._end:
-                    self.proved.append(slab)
-                    self.closed += slab.stop - slab.begin
-                    continue
                 slab.lengthened()
             elif not slab.shortest:
                 slab.step //= 2
+            elif (left := self._turned(slab, before.take(np.array([k])))) is not None:
+                turned[k] = left
             else:
                 self._given_up(slab)
                 continue
-            kept.append(k)
+            if slab.at < self._end:
+                kept.append(k)
+                continue
+            self.proved.append(slab)
+            self.closed += slab.stop - slab.begin
         chosen = np.array(kept, dtype=np.int64)
-        self._before = before.replaced(forms, good).take(chosen)
+        after = before.replaced(forms, good)
+        for k, left in turned.items():
+            after = after.replaced(left.take(np.zeros(len(slabs), dtype=np.int64)), np.arange(len(slabs)) == k)
+        self._before = after.take(chosen)
         self._moving = [slabs[k] for k in kept]
+
+    def _turned(self, slab: Slab, before: Forms) -> Forms | None:
+        """What is found in the cell behind some that are turned, if these lead on from where a slab is; None: nothing does."""
+        f = self.following
+        if len(f.tube) or slab.halvings < _PLAIN or (found := led(f, slab, before)) is None:
+            return None
+        ends, centres, left = found
+        slab.ends += ends
+        slab.centres += centres
+        slab.step = slab.at & -slab.at
+        slab.lengthened()
+        return left
 
     def _given_up(self, slab: Slab) -> None:
         """To be halved, if that is of any use."""

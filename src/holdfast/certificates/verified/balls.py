@@ -97,6 +97,12 @@ def joined(a: Balls, b: Balls) -> Balls:
     return Balls(np.concatenate([a.at, b.at], -1), np.concatenate([a.off, b.off], -1))
 
 
+def either(which: NDArray[np.bool_], a: Balls, b: Balls) -> Balls:
+    """Rows of the one where ``which`` (N,) says so, else of the other."""
+    mask = which.reshape(-1, *[1] * (a.at.ndim - 1))
+    return Balls(np.where(mask, a.at, b.at), np.where(mask, a.off, b.off))
+
+
 def stacked(parts: list[Balls], axis: int) -> Balls:
     """Along a new axis."""
     return Balls(np.stack([x.at for x in parts], axis), np.stack([x.off for x in parts], axis))

@@ -10,6 +10,10 @@ Unique: where the slopes of g - s contract a box of half widths T, there is one 
 Glue: on the face between two cells, what the first one found lies in the box T of the second, so both have found the same.
 Start: the configuration at the lock lies in the box T of the first cell, for every lock instant of the slab.
 
+Where the locked arm is singular its motion is fast, as a square root is. So cells may be turned: their path is along the
+tangent of the motion, and the place on the path of the tool is one more of what the section moves. Of such a cell is shown,
+besides, that the place only goes forward in it, so that the motion is one of the tool along its path.
+
 Joints that are left over follow: they go on with the healthy motion. A tube is met by six numbers more that the target is off
 by: its place, and the axial part of its rotation, which below half a turn says all of it.
 """
@@ -22,11 +26,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .balls import LEAST, UP, Balls, above, crossed, defect, flint, joined, stacked, times
+from .balls import LEAST, UP, Balls, above, crossed, defect, either, flint, joined, stacked, times
 from .forms import real
 from .paths import ROWS, SEGMENT, UNIT, Ints, Slab
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 AT_ONCE = 256  # cells
 _WIDER = 0.25 * 0.5 ** np.arange(27)  # of section boxes, tried one after the other
@@ -114,39 +119,72 @@ class Faults:
             second = _under(second, _mirrored(twice, upper))
         return error[:, : self.m], first[:, : self.m], second[:, : self.m]
 
-    def section(self, slope: Array, rates: tuple[Balls, Balls], still: list[int]) -> tuple[Balls, Array]:
-        """D (N, 2n, 2 + tube + m), of which rows of free joints may be any numbers, and an inverse of their last columns."""
-        count, tube = len(slope), len(self.tube)
-        free = [k for k in range(self.n) if k not in still]
-        locked, path = rates
-        at, off = (np.zeros((count, 2 * self.n, 2 + tube + self.m)) for _ in range(2))
-        at[:, still[0], 0], off[:, still[0], 0] = locked.at[:, still[0]], locked.off[:, still[0]]
-        for k in still[1:]:
-            at[:, k, 1], off[:, k, 1] = path.at[:, k], path.off[:, k]
-        at[:, self.n :, 1], off[:, self.n :, 1] = path.at[:, ::-1], path.off[:, ::-1]
-        jacobian = np.nan_to_num(slope[:, :, free])
-        good = np.abs(np.linalg.det(jacobian)) > 1e-12
-        inverse = np.linalg.inv(np.where(good[:, None, None], jacobian, np.eye(self.m)))
-        at[:, free, 2 + tube :] = inverse
-        if tube:
-            at[:, free, 2 : 2 + tube] = inverse
-        at[:, free, :2] = -np.einsum("nfm,nmk,nkc->nfc", inverse, slope, at[:, :, :2])
-        return Balls(np.nan_to_num(at), off), jacobian
+    def section(self, slope: Array, rates: tuple[Balls, Balls], still: list[int], turned: Flags) -> tuple[Balls, Balls]:
+        """D (N, 2n, 2 + tube + m), and how free joints, then the place on the path follow its columns (N, f + 1, ...).
 
-    def contracts(self, parts: dict[str, Array], w: Array, s: Array) -> NDArray[np.bool_]:
-        """Whether s -> s - g moves any two points of the box nearer to each other."""
-        last = w.shape[1] - self.m
-        half = np.concatenate([w[:, :last], s], axis=1)
+        Any numbers will do. Of a turned cell the path is followed along the tangent of the locked arm's motion, and the place
+        on it is one more of what the section moves.
+        """
+        count, tube, m, free = len(slope), len(self.tube), self.m, [k for k in range(self.n) if k not in still]
+        locked, path = rates
+        own = np.zeros((count, len(free) + 1, 2 + tube + m))
+        own[:, -1, 1] = 1
+        jacobian, drift = np.nan_to_num(slope[:, :, free]), np.nan_to_num(slope[:, :, still[0]] * locked.at[:, [still[0]]])
+        ahead = np.einsum("nmk,nk->nm", slope[:, :, self.n :], path.at[:, ::-1])
+        ahead = np.nan_to_num(ahead + np.einsum("nmk,nk->nm", slope[:, :, still[1:]], path.at[:, still[1:]]))
+        good = np.abs(np.linalg.det(jacobian)) > 1e-12
+        inverse = np.linalg.inv(np.where(good[:, None, None], jacobian, np.eye(m)))
+        own[:, :-1, 2 + tube :] = inverse
+        if tube:
+            own[:, :-1, 2 : 2 + tube] = inverse
+        own[:, :-1, :2] = -inverse @ np.stack([drift, ahead], axis=2)
+        if turned.any():
+            wide = np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned]
+            tangent, across = np.linalg.svd(wide)[2][:, -1], np.linalg.pinv(wide)
+            tangent *= np.where(tangent[:, -1:] < 0, -1.0, 1.0)
+            beside = (tangent[:, :-1] * locked.at[turned][:, free]).sum(axis=1) + tangent[:, -1]
+            own[turned, :, 0] = tangent * beside[:, None] - (across @ drift[turned][:, :, None])[:, :, 0]
+            own[turned, :, 1] = tangent
+            own[turned, :, 2:] = across
+        at, off = (np.zeros((count, 2 * self.n, 2 + tube + m)) for _ in range(2))
+        at[:, still[0], 0], off[:, still[0], 0] = locked.at[:, still[0]], locked.off[:, still[0]]
+        at[:, free] = own[:, :-1]
+        moved = times("nk,nc->nkc", path, Balls(own[:, -1]))
+        at[:, still[1:]], off[:, still[1:]] = moved.at[:, still[1:]], moved.off[:, still[1:]]
+        at[:, self.n :], off[:, self.n :] = moved.at[:, ::-1], moved.off[:, ::-1]
+        return Balls(np.nan_to_num(at), off), Balls(np.nan_to_num(own))
+
+    def slopes(self, parts: dict[str, Array], half: Array) -> Array:
+        """(N, m, 1 + m) above the slopes of g - s by the path and by s."""
+        last = [1, *range(half.shape[1] - self.m, half.shape[1])]
         far = np.einsum("nkc,nc->nk", parts["reach"], half) * UP
-        c = np.cumsum(far[:, : self.n], axis=1) * UP
-        own = np.cumsum(parts["reach"][:, : self.n, last:], axis=1) * UP
-        third = np.einsum("k,nkb,nk->nb", self.lengths, own, c**2) / 2
-        slope = parts["slope"][:, :, last:] + np.einsum("nabk,nk->nab", parts["second"][:, :, last:], half)
-        slope[:, : self.linear] += third[:, None]
-        if self.m > 3:
-            slope[:, 3:] += (own[:, -1] * (far.sum(axis=1) ** 2)[:, None] / 2)[:, None]
-        moved = np.einsum("nab,nb->na", slope, s) * UP * UP + LEAST
-        return np.asarray((moved < 0.999 * s).all(axis=1))
+        slope = parts["slope"][:, :, last] + np.einsum("nabk,nk->nab", parts["second"][:, :, last], half)
+        turned = np.zeros(slope[:, 0].shape)
+        for chain in (slice(0, self.n), slice(None, self.n - 1, -1)):
+            c, own = (np.cumsum(x, axis=1) * UP for x in (far[:, chain], parts["reach"][:, chain][:, :, last]))
+            slope[:, : self.linear] += (np.einsum("k,nkb,nk->nb", self.lengths, own, c**2) / 2)[:, None]
+            turned += own[:, -1]
+        slope[:, self.linear :] += (turned * (far.sum(axis=1) ** 2)[:, None] / 2)[:, None]
+        return slope * UP * UP + LEAST
+
+    def contracts(self, parts: dict[str, Array], w: Array, s: Array) -> Flags:
+        """Whether s -> s - g moves any two points of the box nearer to each other."""
+        slope = self.slopes(parts, np.concatenate([w[:, : -self.m], s], axis=1))[:, :, 1:]
+        return np.asarray((np.einsum("nab,nb->na", slope, s) * UP + LEAST < 0.999 * s).all(axis=1))
+
+    def forward(self, parts: dict[str, Array], w: Array, own: Balls, place: Array) -> Flags:
+        """Whether turned cells only go forward on the path, and end within the segment; place (N,) from where that ends.
+
+        As motions begin in it, they stay there. Where slopes by s are at most M, and by the path at most b, the solution moves
+        by at most u if b + M u <= u.
+        """
+        slope = self.slopes(parts, w)
+        b, inner = slope[:, :, 0], slope[:, :, 1:]
+        u = np.linalg.solve(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
+        found = (u >= 0).all(axis=1) & ((b + np.einsum("nab,nb->na", inner, u) * UP) * UP + LEAST <= u).all(axis=1)
+        slower = np.einsum("nb,nb->n", abs(own.at[:, -1, -self.m :]), u) * UP
+        off = np.einsum("nc,nc->n", abs(own.at[:, -1]), w) * UP
+        return np.asarray(found & (slower < own.at[:, -1, 1]) & (place + off * UP < 0))
 
     def excess(self, parts: dict[str, Array], w: Array) -> tuple[Array, Array, Array]:
         """e(S), how far joints go, and by how much they turn the tool; rounded up."""
@@ -159,36 +197,36 @@ class Faults:
         high, low = ((rest + np.einsum("nac,nc->na", parts[key], w**2) / 2) * UP for key in ("up", "down"))
         return np.nextafter(np.maximum(parts["over"] + high, parts["under"] + low), np.inf) + LEAST, far, angle
 
-    def fine(self, batch: list[Slab]) -> list[NDArray[np.bool_]]:
+    def fine(self, batch: list[Slab]) -> list[Flags]:
         """Of each of the slabs of one lock, which of its cells go on with what the one before found."""
         still = self.still[batch[0][0]]
         free, tube, m = [k for k in range(self.n) if k not in still], len(self.tube), self.m
-        counts = [len(rows) for _, _, rows in batch]
-        begin, stop = (np.repeat([one[i] for _, one, _ in batch], counts) for i in (0, 1))
-        ends = np.concatenate([one[2:] for _, one, _ in batch])
-        first = np.concatenate([np.arange(count) == 0 for count in counts])
-        starts = np.where(first, begin, np.roll(ends, 1))
+        counts = [len(rows) for *_, rows in batch]
+        begin, stop = (np.repeat([ends[i] for _, ends, *_ in batch], counts) for i in (0, 1))
+        starts, ends, width = np.concatenate([cells for *_, cells, _ in batch]).T
+        first, turned = np.concatenate([np.arange(count) == 0 for count in counts]), width > 0
         locked, rate = self.healthy(begin + stop, stop)
         healthy, along = self.healthy(starts + ends, ends)
-        at, off = np.concatenate([rows for _, _, rows in batch]) * UNIT, np.zeros((len(ends), self.n))
+        at, off = np.concatenate([rows for *_, rows in batch]) * UNIT, np.zeros((len(ends), self.n))
         at[:, still[0]], off[:, still[0]] = locked.at[:, still[0]], locked.off[:, still[0]]
         at[:, still[1:]], off[:, still[1:]] = healthy.at[:, still[1:]], healthy.off[:, still[1:]]
         q = Balls(at, off)
         error, slopes, twice = self.expanded(q, healthy)
-        d, jacobian = self.section(slopes.at, (rate, along), still)
+        d, own = self.section(slopes.at, (rate, along), still, turned)
         ones = np.zeros((len(ends), m, 2 + tube + m))
         ones[:, :, 2 + tube :] = -np.eye(m)
         ones[:, :, 2 : 2 + tube] = -np.eye(m)[:, :tube]
         second = times("nki,nakj->naij", d, times("nakl,nlj->nakj", twice, d))
-        own = np.diagonal(second.at, axis1=2, axis2=3), np.diagonal(second.off, axis1=2, axis2=3)
+        bent = np.diagonal(second.at, axis1=2, axis2=3), np.diagonal(second.off, axis1=2, axis2=3)
         parts = {
             "over": np.nextafter(error.at + error.off, np.inf), "under": np.nextafter(error.off - error.at, np.inf),
             "slope": (times("nak,nkc->nac", slopes, d) + Balls(ones)).size, "second": second.size, "reach": d.size,
-            "mixed": np.triu(second.size, 1), "up": np.maximum(own[0] + own[1], 0) * UP,
-            "down": np.maximum(own[1] - own[0], 0) * UP,
+            "mixed": np.triu(second.size, 1), "up": np.maximum(bent[0] + bent[1], 0) * UP,
+            "down": np.maximum(bent[1] - bent[0], 0) * UP,
         }  # fmt: skip
         w = np.zeros((len(ends), 2 + tube + m))
-        w[:, 0], w[:, 1], w[:, 2 : 2 + tube] = (stop - begin) / (2 * SEGMENT), (ends - starts) / (2 * SEGMENT), self.tube
+        w[:, 0], w[:, 2 : 2 + tube] = (stop - begin) / (2 * SEGMENT), self.tube
+        w[:, 1] = np.where(turned, width * UNIT, (ends - starts) / (2 * SEGMENT))
         s = w[:, 2 + tube :]
         # 30 times wider until e(S) <= S; then 8 times narrower: as e grows with S, e(S) is such a box again.
         for i in range(39):
@@ -203,37 +241,41 @@ class Faults:
         low, high = np.nextafter(q.at - far[:, : self.n], -np.inf), np.nextafter(q.at + far[:, : self.n], np.inf)
         inside = ((low >= self.limits[:, 0]) & (high <= self.limits[:, 1]))[:, free].all(axis=1)
         good = closed & unique & inside & (angle < 1.2)
-        good &= self.glued(q, d, jacobian, w, wide, (locked, rate), begin + stop - starts - ends, first, free)
+        middle = (starts + ends) / (2 * SEGMENT)
+        if turned.any():
+            some = {key: part[turned] for key, part in parts.items()}
+            good[turned] &= self.forward(some, w[turned], own[turned], (middle - (ends - 1) // SEGMENT - 1)[turned])
+        here, ones = joined(q[:, free], Balls(middle[:, None])), Balls(np.ones((len(ends), 1)))
+        lock = joined(locked[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))), joined(rate[:, free], ones)
+        good &= self.glued(here, own, w, wide, lock, first, turned)
         return np.split(good, np.cumsum(counts)[:-1])
 
     def glued(
-        self, q: Balls, d: Balls, jacobian: Array, w: Array, wide: Array, lock: tuple[Balls, Balls], ahead: Ints,
-        first: NDArray[np.bool_], free: list[int],
-    ) -> NDArray[np.bool_]:  # fmt: skip
-        """Whether what the cell before found, or the configuration at the lock, lies in the box in which there is one only."""
-        m, tube = self.m, len(self.tube)
-        own = d[:, free]
-        before = Balls(np.roll(own.at, 1, axis=0), np.roll(own.off, 1, axis=0))
-        half = Balls(w[:, 1])
-        earlier = Balls(np.roll(w[:, 1], 1))
-        there = Balls(np.roll(q.at, 1, axis=0), np.roll(q.off, 1, axis=0))[:, free]
-        face = there + -q[:, free] + times("nf,n->nf", before[:, :, 1], earlier) + times("nf,n->nf", own[:, :, 1], half)
-        spread = before[:, :, : 2 + tube] + -own[:, :, : 2 + tube]
-        started, rate = lock[0][:, free], lock[1][:, free]
-        begun = started + -q[:, free] + -times("nf,n->nf", own[:, :, 1], Balls(ahead / (2 * SEGMENT)))
-        leaves = rate + -own[:, :, 0] + -own[:, :, 1]
-        inverse = Balls(jacobian)
-        off = (
-            times("naf,nfb->nab", inverse, own[:, :, 2 + tube :]) + Balls(np.broadcast_to(-np.eye(m), (len(wide), m, m)))
-        ).size
-        carried = times("naf,nfc->nac", inverse, before[:, :, 2 + tube :]).size
-        sides = times("naf,nfc->nac", inverse, spread).size
-        kept = [0, *range(2, 2 + tube)]
-        glue = times("naf,nf->na", inverse, face).size + np.einsum("nac,nc->na", sides[:, :, kept], w[:, kept])
-        glue += np.einsum("nac,nc->na", carried, np.roll(w[:, 2 + tube :], 1, axis=0))
-        start = times("naf,nf->na", inverse, begun).size + times("naf,nf->na", inverse, leaves).size * w[:, :1]
-        most = np.where(first[:, None], start, glue) + np.einsum("nab,nb->na", off, wide)
-        return np.asarray(((most * UP + LEAST) < wide).all(axis=1))
+        self, here: Balls, own: Balls, w: Array, wide: Array, lock: tuple[Balls, Balls], first: Flags, turned: Flags
+    ) -> Flags:
+        """Whether what the cell before found, or the configuration at the lock, lies in the box in which there is one only.
+
+        What is entered is a place of the free joints and on the path, as coordinates of the path and of the section.
+        """
+        m, kept = self.m, [0, *range(2, w.shape[1] - self.m)]
+        there, before, earlier = _before(here), _before(own), np.roll(w, 1, axis=0)
+        place = either(first, lock[0], there + times("nf,n->nf", before[:, :, 1], Balls(earlier[:, 1]))) + -here
+        begun = Balls(np.zeros((*own.at.shape[:2], len(kept))))
+        leaves = lock[1] + -own[:, :, 0]
+        begun.at[:, :, 0], begun.off = leaves.at, np.repeat(leaves.off[:, :, None], len(kept), axis=2)
+        spread = either(first, begun, before[:, :, kept] + -own[:, :, kept])
+        found = either(first, Balls(np.zeros((*own.at.shape[:2], m))), before[:, :, -m:])
+        matrix = own[:, :, [1, *range(-m, 0)]]
+        good = abs(np.linalg.det(matrix.at)) > 0
+        inverse = Balls(np.linalg.inv(np.where(good[:, None, None], matrix.at, np.eye(m + 1))))
+        off = (times("nab,nbc->nac", inverse, matrix) + Balls(np.broadcast_to(-np.eye(m + 1), matrix.at.shape))).size
+        # Between cells that are not turned this is on a face, exactly, and the diagonal where motions begin is in the cell.
+        face = ~turned & (first | ~np.roll(turned, 1))
+        room = np.concatenate([np.where(face, w[:, 1] * (1 + 1e-6) + 1e-12, w[:, 1])[:, None], wide], axis=1)
+        most = times("nab,nb->na", inverse, place).size + np.einsum("nab,nb->na", off, room)
+        most += np.einsum("nac,nc->na", times("nab,nbc->nac", inverse, spread).size, w[:, kept])
+        most += np.einsum("nac,nc->na", times("nab,nbc->nac", inverse, found).size, earlier[:, -m:])
+        return np.asarray(((most * UP + LEAST) < room).all(axis=1))
 
     def rejected(self, chunk: list[Slab]) -> tuple[int, list[tuple[Slab, int]]]:
         """How many cells were checked, and slabs that prove nothing, each with how many of its cells are bad."""
@@ -241,12 +283,17 @@ class Faults:
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for k, slab in enumerate(chunk):
                 waiting.append(slab)
-                full = sum(len(rows) for _, _, rows in waiting) >= AT_ONCE
+                full = sum(len(rows) for *_, rows in waiting) >= AT_ONCE
                 if full or k + 1 == len(chunk) or chunk[k + 1][0] != slab[0]:
                     found = zip(waiting, self.fine(waiting), strict=True)
                     bad += [(one, int((~good).sum())) for one, good in found if not good.all()]
                     waiting = []
-        return sum(len(rows) for _, _, rows in chunk), bad
+        return sum(len(rows) for *_, rows in chunk), bad
+
+
+def _before(x: Balls) -> Balls:
+    """Of the cell before."""
+    return Balls(np.roll(x.at, 1, axis=0), np.roll(x.off, 1, axis=0))
 
 
 def _pairs(z: Balls, columns: Balls) -> Balls:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .forms import COMMON, LIMITS, NUMBER, TEXT, fit, need, real, spans, unpacked, within
 
 Ints = NDArray[np.int64]
-Slab = tuple[int, Ints, Ints]  # the lock; its ends and those of its cells; centres of these
+Slab = tuple[int, tuple[int, int], Ints, Ints]  # the lock; its ends; of its cells start, end and half width; their centres
 
 SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
@@ -111,16 +111,34 @@ def slabs(document: dict[str, Any]) -> Iterator[Slab]:
         centres = unpacked(lock["centres"], 4 * n * MOST_CELLS, "centres")
         need(len(centres) % (4 * n) == 0, "centres are cut off")
         rows, at, used, after = np.frombuffer(centres, "<i4").reshape(-1, n).astype(np.int64), 0, 0, first
-        need(not rows[:, [lock["joint"], *lock["followers"]]].any(), "centres of joints that are not free must be 0")
+        need(not rows[:, lock["followers"]].any(), "centres of joints that follow must be 0")
         while at < len(numbers):
             begin, stop, count = (int(x) for x in numbers[at : at + 3]) if at + 3 <= len(numbers) else (0, 0, 0)
-            ends = numbers[at + 3 : at + 3 + max(count, 0)]
+            given = numbers[at + 3 : at + 3 + max(count, 0)]
             good = after <= begin < stop <= last and (stop - 1) // SEGMENT == begin // SEGMENT
-            need(good and 0 < count == len(ends), "a slab of lock instants is out of place, or without cells")
-            faces = np.append(begin, ends)
-            good = (np.diff(faces) > 0).all() and faces[1] >= stop and faces[-1] == end
-            need(good and ((faces[1:] - 1) // SEGMENT == faces[:-1] // SEGMENT).all(), "cells of a slab leave a gap")
+            need(good and 0 < count == len(given), "a slab of lock instants is out of place, or without cells")
             need(used + count <= len(rows), "there are fewer centres than cells")
-            yield which, np.append([begin, stop], ends), rows[used : used + count]
+            some = rows[used : used + count].copy()
+            cells = _cells(begin, given, some[:, lock["joint"]])
+            some[:, lock["joint"]] = 0
+            need((cells[:, 2] == 0).all() or not any(map(real, document["tube"])), "in a tube there are no turned cells")
+            need(cells[-1, 1] == end and not cells[-1, 2], "cells of a slab do not come to the end")
+            need(cells[0, 2] or cells[0, 1] >= stop, "the first cell of a slab does not hold it")
+            yield which, (begin, stop), cells, some
             at, used, after = at + 3 + count, used + count, stop
         need(used == len(rows), "centres are left over")
+
+
+def _cells(begin: int, given: Ints, placed: Ints) -> Ints:
+    """Starts, ends and half widths (0 unless turned) of cells, from their ends or negative half widths, and places of some."""
+    turned = given < 0
+    faces = np.append(begin, np.maximum.accumulate(np.where(turned, begin, given)))
+    behind = np.append(False, turned[:-1])
+    base, free = faces[:-1] // SEGMENT * SEGMENT, turned | behind
+    starts = np.where(free, base + placed, faces[:-1])
+    ends = np.where(turned, starts, given)
+    need(not placed[~free].any(), "centres of joints that are not free must be 0")
+    good = (starts - base >= turned) & (starts - base <= SEGMENT - ~turned) & (given >= -(1 << 31))
+    good &= turned | ((starts < ends) & ((ends - 1) // SEGMENT == base // SEGMENT) & (ends > faces[:-1]))
+    need(good.all(), "cells of a slab leave a gap")
+    return np.stack([starts, ends, np.where(turned, -given, 0)], axis=1)

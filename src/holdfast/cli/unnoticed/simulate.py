@@ -122,14 +122,13 @@ def command(
         raise InputError("--notice watches an arm with bodies and motors; add --physics and --faults")
     if drawn_faults is not None:
         _refuse({"--lock": lock, "--failure": failure})
-        named = drawn_faults.draw(made.arm, episode=episode).locks()
-        joints, times = tuple(made.arm.joint_index(name) for name in named), tuple(named.values())
+    happens = None if drawn_faults is None else drawn_faults.draw(made.arm, episode=episode)
     touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
     if stop_at_contact and touched is None:
         raise InputError("--stop-at-contact has nothing to stop at; add --cell")
     locked = read_locks(made.arm, lock, degrees, failure=failure) if failure else joints
     alike: dict[str, Any] = {"locked": locked, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
-    runs = hf.simulate(made, q0, goal, cycles=cycles, stop_at_contact=stop_at_contact, **alike)
+    runs = hf.simulate(made, q0, goal, cycles=cycles, faults=happens, stop_at_contact=stop_at_contact, **alike)
     result: Result = runs
     if physics:
         if cycles:

@@ -23,6 +23,9 @@ from holdfast.words import percent
 Array = NDArray[np.float64]
 
 _MOST = 2520  # orders: all of seven joints
+_FRESH = 10  # times as many samples for the front
+_DIGITS = 9  # of the invariants of lines
+_PARALLEL = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,10 +33,15 @@ class Orders(Result):
     """How much each order of the columns of a pose Jacobian keeps over its whole joint space.
 
     Attributes:
-        orders: (D, n) columns, from 0; of an order and its reverse, which is the same arm read from the tool, one.
+        orders: (D, n) columns, from 0; of an order and its reverse, which is the same arm read from the tool, one, and one of
+            those that a symmetry of the lines makes the same.
         thresholds: Values of relative manipulability.
         counts: (D, T) configurations at or above each threshold.
         mean: (D,) of relative manipulability.
+        lengths: (D,) sums of the distances between axes that follow one another, m: a long arm is no better.
+        front: Orders, numbers from 0, that no other beats in both the fraction at the last but one threshold and the length, by
+            length; chosen on the samples of the search, and again, of those, on fresh ones.
+        fresh: (F,) that fraction of each of them on the fresh samples, ten times as many.
         at_home: What all of them have at the configuration of zeros.
         samples: Configurations of each order, full circles, drawn evenly: the same for all.
         seed: Of the draws.
@@ -43,6 +51,9 @@ class Orders(Result):
     thresholds: tuple[float, ...]
     counts: NDArray[np.int64]
     mean: Array
+    lengths: Array
+    front: NDArray[np.int64]
+    fresh: Array
     at_home: float
     samples: int
     seed: int
@@ -67,6 +78,8 @@ class Orders(Result):
                 f"at least {h:g}: {percent(share[best, t])} of the configurations in the best order ({named}), "
                 f"{percent(share[worst, t])} in the worst"
             )
+        some = [f"{percent(x)} with {self.lengths[d]:.3g} m" for d, x in zip(self.front, self.fresh, strict=True)]
+        lines.append(f"at least {self.thresholds[-2]:g} against length, on fresh samples: {', '.join(some)} between the axes")
         return lines
 
 
@@ -91,7 +104,8 @@ def judge_orders(
         seed: Of the draws.
 
     Raises:
-        InputError: More than 2,520 orders (of more than seven joints) without ``at_most``; columns that are not lines.
+        InputError: More than 2,520 orders (of more than seven joints) without ``at_most``; columns that are not lines; fewer
+            than two thresholds.
 
     Source: derived here.
     """
@@ -100,21 +114,93 @@ def judge_orders(
         raise InputError(f"the Jacobian has shape {given.shape}; orders are judged for poses, of 6 rows")
     w, o = axes_of(given)
     n, rng = len(w), np.random.default_rng(seed)
+    if len(thresholds) < 2:
+        raise InputError("give two thresholds or more; the front is that of the last but one")
     if at_most is None and n > 7:
         raise InputError(f"{n} joints have more than {_MOST} orders; say how many with at_most")
     if n <= 7:
-        orders = np.array([x for x in permutations(range(n)) if x[0] < x[-1]])
+        orders = distinct_orders(w, o)
         orders = orders if at_most is None or at_most >= len(orders) else rng.permutation(orders)[:at_most]
     else:
         orders = np.array([rng.permutation(n) for _ in range(int(at_most or 0))])
     kernel, lines = _worst(n, failures), np.hstack([w, o])
+
+    def values(order: NDArray[np.int64], q: Array) -> Array:
+        return np.sqrt(np.maximum(np.nan_to_num(kernel.rows(lines[order].ravel(), q)[:, 0]), 0.0))
+
     q = rng.uniform(-np.pi, np.pi, (samples, n))
     counts, mean = np.zeros((len(orders), len(thresholds)), dtype=np.int64), np.zeros(len(orders))
     for d, order in enumerate(orders):
-        value = np.sqrt(np.maximum(np.nan_to_num(kernel.rows(lines[order].ravel(), q)[:, 0]), 0.0))
+        value = values(order, q)
         counts[d], mean[d] = [(value >= h).sum() for h in thresholds], value.mean()
+    lengths = _between(w, o)[orders[:, :-1], orders[:, 1:]].sum(axis=1)
+    first = _front(lengths, counts[:, -2])
+    q = rng.uniform(-np.pi, np.pi, (_FRESH * samples, n))
+    fresh = np.array([(values(orders[d], q) >= thresholds[-2]).mean() for d in first])
+    kept = _front(lengths[first], fresh)
     home = float(np.sqrt(kernel.rows(lines.ravel(), np.zeros((1, n)))[0, 0]))
-    return Orders(orders=orders, thresholds=thresholds, counts=counts, mean=mean, at_home=home, samples=samples, seed=seed)
+    return Orders(
+        orders=orders,
+        thresholds=thresholds,
+        counts=counts,
+        mean=mean,
+        lengths=lengths,
+        front=first[kept],
+        fresh=fresh[kept],
+        at_home=home,
+        samples=samples,
+        seed=seed,
+    )
+
+
+def distinct_orders(w: Array, o: Array) -> NDArray[np.int64]:
+    """Orders (D, n) of lines that make different arms: of an order and its reverse one, and one of those alike by a symmetry.
+
+    Lines are alike if what does not depend on frames and on the senses of the axes is: for every two, and as a product for
+    every three of them, cosine and mutual moment of the axes, and their distance.
+
+    Args:
+        w: (n, 3) unit directions.
+        o: (n, 3) points, m.
+
+    Source: derived here.
+    """
+    n = len(w)
+    orders = np.array([x for x in permutations(range(n)) if x[0] < x[-1]])
+    v = np.cross(o, w)
+    between = _between(w, o)
+    tables = [w @ w.T, w @ v.T + v @ w.T]
+    pairs, triples = (np.array(list(combinations(range(n), size))).reshape(-1, size) for size in (2, 3))
+
+    def invariants(some: NDArray[np.int64]) -> Array:
+        a, b = some[:, pairs].transpose(2, 0, 1)
+        c, d, e = some[:, triples].transpose(2, 0, 1)
+        found = [abs(t[a, b]) for t in (*tables, between)] + [t[c, d] * t[d, e] * t[e, c] for t in tables]
+        return np.round(np.concatenate([*found, tables[0][c, d] * tables[1][d, e] * tables[1][e, c]], axis=1), _DIGITS) + 0.0
+
+    forward, back = invariants(orders), invariants(orders[:, ::-1])
+    apart = forward != back
+    place = apart.argmax(axis=1)[:, None]
+    later = np.take_along_axis(forward, place, 1) > np.take_along_axis(back, place, 1)
+    _, first = np.unique(np.where(later, back, forward), axis=0, return_index=True)
+    return np.asarray(orders[np.sort(first)], dtype=np.int64)
+
+
+def _between(w: Array, o: Array) -> Array:
+    """Distances (n, n) of lines, m."""
+    normal = np.cross(w[:, None], w[None])
+    size = np.linalg.norm(normal, axis=2)
+    apart = o[None] - o[:, None]
+    skew = abs((apart * normal).sum(axis=2)) / np.maximum(size, 1e-300)
+    along = np.linalg.norm(np.cross(apart, w[:, None]), axis=2)
+    return np.where(size < _PARALLEL, along, skew)
+
+
+def _front(lengths: Array, fractions: Array) -> NDArray[np.int64]:
+    """Numbers of what nothing is both shorter and better than, by length."""
+    order = np.lexsort((-fractions, lengths))
+    best = np.maximum.accumulate(np.concatenate([[-np.inf], fractions[order][:-1]]))
+    return np.asarray(order[fractions[order] > best], dtype=np.int64)
 
 
 @cache

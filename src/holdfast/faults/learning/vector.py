@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from holdfast.control.law import Law
 from holdfast.errors import HoldfastError, InputError
 from holdfast.faults.batch import batch_of
+from holdfast.faults.entry import KINDS
 from holdfast.faults.events import FaultEvents
 from holdfast.faults.learning.stepping import NEVER, STATE, kernel_rows, step_kernel
 from holdfast.faults.scheme import Faults
@@ -129,7 +130,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         if given.shape != self.action_space.shape:
             raise InputError(f"actions have shape {given.shape}; they must be {self.action_space.shape}, a row for each arm")
         anew = np.flatnonzero(self._over)
-        state, error, off = self._advance(np.clip(given, -1.0, 1.0))
+        state, error, off = self._advance(np.clip(given, -1.0, 1.0), self.period)
         self._state, self._error, self._time = state, error, self._time + self.period
         there = (off[:, 0] <= self.tolerance[0]) & (off[:, 1] <= self.tolerance[1])
         late = ~there & (self._time >= self.horizon - 1e-9)
@@ -148,12 +149,15 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
 
     # ---- inside ------------------------------------------------------------------------------------------------------
 
-    def _advance(self, actions: Array, *, period: float | None = None) -> tuple[Array, Array, Array]:
-        clock = np.stack([self._time, np.full(self.num_envs, self.period if period is None else period)], axis=1)
-        noise = self.np_random.standard_normal(actions.shape) if (self._code >= 0).any() else np.zeros(actions.shape)
-        faults = (self._code, self._onset, self._end, self._parameters)
-        out = self._kernel(self._state, clock, self._place, self._rotation, actions, noise, *faults, self._limits)
-        return tuple(np.ascontiguousarray(part) for part in out)  # type: ignore[return-value]
+    def _advance(self, actions: Array, period: float, *, rows: NDArray[np.int64] | slice = slice(None)) -> tuple[Array, ...]:
+        """States, errors and distances of all rows, or of some, after a time."""
+        clock = np.stack([self._time[rows], np.full(len(actions), period)], axis=1)
+        noisy = (self._code[rows] == KINDS.index("sensor_noise")).any()
+        noise = self.np_random.standard_normal(actions.shape) if noisy else np.zeros(actions.shape)
+        given = (self._code, self._onset, self._end, self._parameters, self._limits)
+        where = (self._state[rows], clock, self._place[rows], self._rotation[rows])
+        out = self._kernel(*where, actions, noise, *(part[rows] for part in given))
+        return tuple(np.ascontiguousarray(part) for part in out)
 
     def _begin(self, rows: NDArray[np.int64]) -> None:
         """New episodes for some rows."""
@@ -173,9 +177,9 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         self._state[rows] = np.concatenate([q, q, q, q, np.zeros(q.shape)], axis=1)
         self._time[rows], self._over[rows] = 0.0, False
         # A step of no time: what is told, and the error, at the beginning.
-        state, error, _ = self._advance(np.zeros((self.num_envs, arm.n)), period=0.0)
-        self._error[rows] = error[rows]
-        self._state[rows, arm.n : 2 * arm.n] = state[rows, arm.n : 2 * arm.n]
+        state, error, _ = self._advance(np.zeros((count, arm.n)), 0.0, rows=rows)
+        self._error[rows] = error
+        self._state[rows, arm.n : 2 * arm.n] = state[:, arm.n : 2 * arm.n]
 
     def _random_goals(self, generator: np.random.Generator, count: int) -> Array:
         room = ROOM * (self._upper - self._lower)

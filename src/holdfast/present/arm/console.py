@@ -43,6 +43,7 @@ def to_dict(arm: Arm) -> dict[str, Any]:
                 "task": s.task,
                 "redundancy": s.redundancy,
                 "single_points_of_failure": [arm.joint_names[k] for k in s.fatal],
+                "end_it_together": [[arm.joint_names[k] for k in sets] for sets in s.together],
                 "always_singular": s.never,
             }
             for s in structures(arm)

@@ -161,7 +161,7 @@ def _panel(axes: Axes, found: PathProof, part: LockedPath) -> None:
     for slab in part.slabs:
         begin, stop = slab.begin / SEGMENT, slab.stop / SEGMENT
         proved.append([(begin, begin), (end, begin), (end, stop), (stop, stop)])
-        faces += [[(x / SEGMENT, begin), (x / SEGMENT, stop)] for x in slab.ends[:-1]]
+        faces += [[(x / SEGMENT, begin), (x / SEGMENT, stop)] for x in slab.ends[:-1] if x > 0]
     for begin, stop in found.gaps(part):
         low, high = begin / SEGMENT, stop / SEGMENT
         left.append([(low, low), (end, low), (end, high), (high, high)])

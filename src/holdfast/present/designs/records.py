@@ -37,7 +37,15 @@ def to_dict(found: Shown) -> dict[str, Any]:
         return {"record": found.record.id, "ok": found.ok, "claims": [{"said": s, "holds": h} for s, h in found.claims]}
     if isinstance(found, Orders):
         numbers = {"samples": found.samples, "seed": found.seed, "at_home": found.at_home, "thresholds": list(found.thresholds)}
-        return numbers | {"orders": found.orders.tolist(), "fractions": found.fractions.tolist(), "mean": found.mean.tolist()}
+        return (
+            numbers
+            | {"orders": found.orders.tolist(), "fractions": found.fractions.tolist(), "mean": found.mean.tolist()}
+            | {
+                "lengths": found.lengths.tolist(),
+                "front": found.front.tolist(),
+                "fresh": found.fresh.tolist(),
+            }
+        )
     tables = [text(dh_table(arm), arm.name) for arm in found.arms]
     numbers = {"task": found.task, "failures": found.failures, "value": found.value, "bound": found.bound}
     return numbers | {"residual": found.residual, "losses": found.losses, "tables": tables}

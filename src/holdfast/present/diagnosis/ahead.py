@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.diagnosis.observability import Observability
-from holdfast.diagnosis.probe import Finding, Probe
+from holdfast.diagnosis.foresight.observability import Observability
+from holdfast.diagnosis.foresight.probe import Finding, Probe
 from holdfast.present.printing import Rows, number
 from holdfast.present.story import Story
 from holdfast.words import capitalised

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.diagnosis.observability import Observability
-from holdfast.diagnosis.probe import Probe
-from holdfast.diagnosis.separation import LIKELY
+from holdfast.diagnosis.foresight.observability import Observability
+from holdfast.diagnosis.foresight.probe import Probe
+from holdfast.diagnosis.foresight.separation import LIKELY
 from holdfast.report import figures as style
 
 _LONG = 24  # letters of a name

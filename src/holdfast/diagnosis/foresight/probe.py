@@ -15,9 +15,8 @@ from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
-from holdfast.diagnosis.motions import resampled
-from holdfast.diagnosis.sensors import Sensors
-from holdfast.diagnosis.separation import (
+from holdfast.diagnosis.foresight.motions import resampled
+from holdfast.diagnosis.foresight.separation import (
     LIKELY,
     differences,
     hypotheses,
@@ -29,6 +28,7 @@ from holdfast.diagnosis.separation import (
     unseen,
     weights,
 )
+from holdfast.diagnosis.sensors import Sensors
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 from holdfast.files.output import write_table

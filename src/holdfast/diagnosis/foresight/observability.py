@@ -11,11 +11,11 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.delay import expected_delays
-from holdfast.diagnosis.motions import resampled
-from holdfast.diagnosis.probe import RATE
+from holdfast.diagnosis.foresight.delay import expected_delays
+from holdfast.diagnosis.foresight.motions import resampled
+from holdfast.diagnosis.foresight.probe import RATE
+from holdfast.diagnosis.foresight.separation import separations, together, unseen
 from holdfast.diagnosis.sensors import Sensors
-from holdfast.diagnosis.separation import separations, together, unseen
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.result import Result
