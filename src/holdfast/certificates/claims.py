@@ -167,12 +167,12 @@ def _targets(
     if rpy is not None:
         if task is not None:
             raise InputError("pointing is about one direction: give rotation, whose z axis it is, in place of rpy")
-        angles, said = real_numbers(rpy, "rpy", "lowest and highest roll, pitch and yaw, (3, 2), rad"), (3, 2)
+        angles, said = real_numbers(rpy, "rpy", "lowest and highest roll, pitch and yaw, (3, 2), rad"), [3, 2]
         what = "the lowest and the highest roll, pitch and yaw, (3, 2)"
         if len(box) == 2:
             need_flat(arm, "a planar pose is")
-            said, what = (2,), "the lowest and the highest yaw, (2,)"
-        pairs = angles.reshape(-1, 2) if angles.shape == said else np.array([[1.0, 0.0]])
+            said, what = [2], "the lowest and the highest yaw, (2,)"
+        pairs = angles.reshape(-1, 2) if list(angles.shape) == said else np.array([[1.0, 0.0]])
         if not np.isfinite(pairs).all() or (pairs[:, 0] > pairs[:, 1]).any():
             raise InputError(f"rpy must be {what}, rad, finite, the lower first")
         return np.vstack([box, pairs]), "pose" if len(box) == 3 else "planar-pose", None
