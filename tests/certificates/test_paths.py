@@ -6,6 +6,7 @@ import contextlib
 import copy
 import subprocess
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -114,6 +115,64 @@ def test_joints_that_are_left_over_follow(tmp_path, rng):
     lock = driven.document["locks"][1]
     off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[-1]))
     assert off < 1e-6 > beyond
+
+
+@pytest.fixture(scope="module")
+def singular(three):
+    """A planar arm whose last joint comes straight while its first, which locks, draws the tool inwards: fast as a root is."""
+    knots = np.array([0.3, 1.2, 0.25]) + np.linspace(0, 1, 5)[:, None] * [-0.3, -0.2, -0.5]
+    return hf.certify(path_claim(three, knots, failures=[0], task="planar"), halvings=4)
+
+
+def turned_cells(document, lock=0):
+    """Where the half widths of turned cells are among the numbers of a lock."""
+    values, at, found = numbers(document, lock), 0, []
+    while at < len(values):
+        cells = range(at + 3, at + 3 + values[at + 2])
+        found += [k for k in cells if values[k] < 0]
+        at = cells[-1] + 1
+    return found
+
+
+def test_by_a_singular_configuration(singular, three, tmp_path, rng, monkeypatch):
+    """Cells that are turned come near to it, others do not; scipy's integrator starts there as well, before it and behind."""
+    file = singular.write(tmp_path / "a.certificate")
+    assert turned_cells(singular.document)
+    check = hf.check_certificate(file)
+    assert (check.rejected, check.undecided) == (0, singular.undecided)
+    driven = Driven(file)
+    (lock,) = driven.document["locks"]
+    near = sorted(driven.slabs(lock), key=lambda slab: abs(sum(slab) / 2 - 2))[:4]
+    assert {begin > 2 for begin, _ in near} == {False, True}
+    for slab in near:
+        off, beyond = driven.finished(lock, rng.uniform(*slab))
+        assert off < 1e-6 > beyond
+    monkeypatch.setattr(march, "led", lambda *_: None)
+    plain = hf.certify(singular.claim, halvings=4)
+    assert singular.proved > 0.9
+    assert singular.proved > plain.proved + Fraction(1, 5)
+
+
+def test_turned_cells_that_a_forger_changes_are_rejected(singular, tmp_path):
+    """Made wider, without the one behind, moved along the path: never more is proved than before."""
+    where = turned_cells(singular.document)
+    last = max(k for k in where if k + 1 not in where)
+    rows = numbers(singular.document, 0, "centres", "<i4").reshape(-1, 3)
+    row = int(np.flatnonzero(rows[:, 0])[0])
+    forgers = [
+        recut(moved_by(where[0], -(1 << 28))),
+        recut(moved_by(where[0], numbers(singular.document, 0)[where[0]] * -1 + SEGMENT)),
+        recut(moved_by(3 * row, 1 << 17), key="centres", kind="<i4"),
+        recut(moved_by(3 * row + 1, 1 << 22), key="centres", kind="<i4"),
+        recut(moved_by(last + 1, -(1 << 19))),
+        put(("tube", 0), (1e-5).hex()),
+    ]
+    for forge in forgers:
+        document = copy.deepcopy(singular.document)
+        forge(document)
+        path = written.stored(written.repaired(document), tmp_path / "a.certificate")
+        with contextlib.suppress(verifier.Refused):
+            assert verifier.verify(path).rejected > 0
 
 
 def flipped(monkeypatch, knot):

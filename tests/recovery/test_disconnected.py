@@ -15,7 +15,7 @@ from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules
 from holdfast.recovery import Ending, search
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
-from holdfast.recovery.proofs.flood import _floods, _Points, disconnected, holds_configuration, may_meet
+from holdfast.recovery.proofs.flood import _floods, _Points, confined, disconnected, holds_configuration, may_meet
 from holdfast.recovery.rows import row_solver
 from holdfast.recovery.space import Space
 
@@ -175,6 +175,20 @@ def test_a_gripper_that_cannot_get_past_the_forearm_keeps_the_last_joint_where_i
     there = goal.copy()
     there[6] = 1.1
     assert hf.recover(panda, ["panda_joint6"], start, goal=there, clearance=clearance, samples=0).ok
+
+
+@pytest.mark.interpreted
+def test_a_first_link_between_two_balls_stays_there_whatever_the_others_do():
+    """Where the second and later links are does not matter; the balls are 0.6 m out, at 1 rad to both sides."""
+    arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0, lower=-2.8, upper=2.8) for _ in range(4)], name="four")
+    shape = among(arm, 0.6 * np.array([[np.cos(1), np.sin(1)], [np.cos(1), -np.sin(1)]]))
+    start, there, here = np.zeros(4), np.array([2.0, 0, 0, 0]), np.array([0.4, 2.0, -1.0, 0.5])
+    space = Space(arm, np.ones(4, dtype=bool), shape, 0.0, np.stack([start, there]))
+    flood = next(iter(confined(space, start, there[None])))
+    edge = 1 - np.arcsin((BALL + THICK) / 0.6)
+    most = np.abs(flood.middle[:, 0]).max() + flood.half[0]
+    assert edge <= most < edge + 0.35
+    assert not list(confined(space, start, np.stack([there, here])))
 
 
 @pytest.mark.parametrize("limit", [np.inf, 2.8], ids=["round", "limited"])

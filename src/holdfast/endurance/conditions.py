@@ -119,16 +119,15 @@ class Conditions:
         q = np.concatenate([c.q for c in parts]) if parts else found.q[:0]
         return replace(found, components=parts, q=q, status=found.status if parts else Status.INFEASIBLE)
 
-    def brought(self, q: Array, pose: Array) -> Array:
-        """Configurations near q (N, n) that keep what is left to them and the rows of a pose (4, 4); maybe not all do."""
+    def brought(self, q: Array, poses: Array) -> Array:
+        """Configurations near q (N, n) that keep what is left to them and the rows of poses (N, 4, 4); maybe not all do."""
         if self.manifold is None:
             return q
 
-        def of_path(at: Array, _: NDArray[np.intp]) -> tuple[Array, Array]:
-            now, jacobian = self.arm.forward_kinematics(at), self.arm.jacobian(at)
-            error = np.concatenate(
-                [pose[:3, 3] - now[:, :3, 3], rotation_vectors(pose[:3, :3] @ now[:, :3, :3].transpose(0, 2, 1))], axis=1
-            )
+        def of_path(at: Array, which: NDArray[np.intp]) -> tuple[Array, Array]:
+            now, jacobian, pose = self.arm.forward_kinematics(at), self.arm.jacobian(at), poses[which]
+            turned = rotation_vectors(pose[:, :3, :3] @ now[:, :3, :3].transpose(0, 2, 1))
+            error = np.concatenate([pose[:, :3, 3] - now[:, :3, 3], turned], axis=1)
             rows = _rows(self.task, now)
             return np.einsum("nmk,nk->nm", rows, error), rows @ jacobian
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.endurance.problem import Problem
+from holdfast.endurance import tables
+from holdfast.endurance.problem import CHANGED, Problem
 from holdfast.notice import Count
 from holdfast.probability.intervals import Interval
 from holdfast.solvers import joint_space
@@ -83,16 +84,53 @@ def finished(problem: Problem, q: Array, time: Array, joint: Index, *, begin: Ar
     if narrower is not None:
         some = np.flatnonzero(~survived & ~narrower.off(q, time))
         survived[some] = finished(narrower, q[some], time[some], joint[some], begin=begin)
+    some = np.flatnonzero(~survived)
+    survived[some] = _changing(problem, q[some], time[some], joint[some])
+    return survived
+
+
+def _changing(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
+    """As :func:`finished`, of an arm with redundancy left that may hold other joints at every sample."""
+    at, owner = q[:0], np.empty(0, dtype=np.int64)
+    since = np.searchsorted(problem.time, time, side="right")
+    for k in range(1, len(problem.time)):
+        fresh = np.flatnonzero(np.minimum(since, len(problem.time) - 1) == k)
+        at, owner = np.concatenate([at, q[fresh]]), np.concatenate([owner, fresh])
+        begin = np.maximum(time[owner], problem.time[k - 1])
+        landed, row = [at[:0]], [owner[:0]]
+        for held in problem.sets[:CHANGED]:
+            some = np.flatnonzero(~np.isin(joint[owner], held))
+            stopped = joint[owner[some]], (*problem.immobile, *held)
+            ended, good = _branch(problem, at[some], begin[some], stopped, problem.time[k])
+            landed.append(ended[good])
+            row.append(owner[some[good]])
+        at, owner = np.concatenate(landed), np.concatenate(row)
+        some = tables.apart(at, owner)
+        at, owner = at[some], owner[some]
+    survived = np.zeros(len(q), dtype=bool)
+    survived[owner[_on_last_pose(problem, at)]] = True
     return survived
 
 
 def _on_path(problem: Problem, q: Array, time: Array, joint: Index, held: tuple[int, ...]) -> Flags:
-    """The branch through (joints, time) by its arc length, with Runge and Kutta's steps of fourth order.
+    """Whether the branch through (joints, time) leads to the last pose."""
+    ended, good = _branch(problem, q, time, (joint, held), problem.path.duration)
+    good[good] = _on_last_pose(problem, ended[good])
+    return good
 
-    Where time turns back on it the branch ends: nothing goes on from there along the path.
+
+def _branch(
+    problem: Problem, q: Array, time: Array, stopped: tuple[Index, tuple[int, ...]], until: float
+) -> tuple[Array, Flags]:
+    """Where the branch through (joints, time) leads at a time, and whether it gets there.
+
+    It is followed by its arc length, with Runge and Kutta's steps of fourth order. Where time turns back on it the branch ends:
+    nothing goes on from there along the path.
     """
     arm, scale = problem.arm, _WHOLE / problem.path.duration
-    survived = np.zeros(len(q), dtype=bool)
+    joint, held = stopped
+    end = until * scale
+    found, reached = np.full(q.shape, np.nan), np.zeros(len(q), dtype=bool)
     left = np.arange(len(q))
     state = np.column_stack([q, time * scale])
     tangent = np.zeros(state.shape)
@@ -108,18 +146,18 @@ def _on_path(problem: Problem, q: Array, time: Array, joint: Index, held: tuple[
             fourth = _direction(problem, state + _STEP * third, (lock, held), third, scale)
             state = state + _STEP / 6 * (first + 2 * second + 2 * third + fourth)
             tangent = fourth
-            over = (state[:, -1] >= _WHOLE) & (fourth[:, -1] > 0)
-            # What has passed the end of the path is judged there, not where its step went.
-            back = np.where(over, (state[:, -1] - _WHOLE) / np.where(over, fourth[:, -1], 1.0), 0.0)
+            over = (state[:, -1] >= end) & (fourth[:, -1] > 0)
+            # What has passed the end is judged there, not where its step went.
+            back = np.where(over, (state[:, -1] - end) / np.where(over, fourth[:, -1], 1.0), 0.0)
             here = state[:, :-1] - back[:, None] * fourth[:, :-1]
             good = ((here >= arm.lower - 1e-9) & (here <= arm.upper + 1e-9)).all(axis=1) & (fourth[:, -1] > 0)
             good[good] = problem.conditions.holds(here[good], 1e-9)
             ended = np.flatnonzero(over & good)
-            survived[left[ended]] = _on_last_pose(problem, here[ended])
+            found[left[ended]], reached[left[ended]] = here[ended], True
             go_on = good & ~over
             tell(int(np.count_nonzero(~go_on)))
             left, state, tangent = left[go_on], state[go_on], tangent[go_on]
-    return survived
+    return found, reached
 
 
 def _on_last_pose(problem: Problem, q: Array) -> Flags:
@@ -155,7 +193,13 @@ def _direction(problem: Problem, state: Array, stopped: tuple[Index, tuple[int, 
 
 
 def healthy(problem: Problem, q: Array, time: Array) -> Array:
-    """(N, n) where a motion (T, n) is at times (N,), brought to the pose of that time and back within the joint limits."""
+    """(N, n) where a motion (T, n) is at times (N,), brought to the pose of that time and back within the joint limits.
+
+    A motion that holds the axis of a cone at its samples does so between them.
+    """
+    narrower = problem.narrower_at(q[0])
+    if narrower is not None and not narrower.off(q).any():
+        return healthy(narrower, q, time)
     arm = problem.arm
     k = np.clip(np.searchsorted(problem.time, time, side="right") - 1, 0, len(q) - 2)
     share = (time - problem.time[k]) / np.diff(problem.time)[k]
@@ -164,7 +208,7 @@ def healthy(problem: Problem, q: Array, time: Array) -> Array:
     found = problem.lock.tracer.corrected(between, poses)[0]
     inside = np.clip(found, arm.lower, arm.upper)
     if problem.spare > 1:
-        return inside
+        return problem.conditions.brought(inside, poses)
     beyond = np.flatnonzero((found != inside).any(axis=1))  # of a motion along a limit
     limit = np.abs(found - inside)[beyond].argmax(axis=1)
     back, good = problem.lock.held(inside[beyond], limit, poses[beyond])

@@ -37,6 +37,7 @@ Kind = Literal["exact", "upper bound", "lower bound"]
 ON = 1e-3  # m and rad that a configuration given may be off the path
 _IMMOBILE = 1e-9  # rad and m between the limits of a joint that does not move, or in a motion
 _SETS = 24  # of joints that a failed arm may hold
+CHANGED = 8  # of these, between which it may change on its way
 _FIRST, _STARTS = 3, 64  # configurations of the first pose that are tried, of so many starts
 _RESTARTS, _FOUND = 30, 1e-6  # of inverse kinematics with a joint locked; rad, and lengths in units of the arm's own
 _RANK = 1e-6  # of the largest singular value
@@ -136,7 +137,7 @@ class Problem:
     def first(self) -> Array:
         """(K, n) a few configurations of the first pose, far apart."""
         q = self.lock.tracer.seeds(self.lock.poses[:1], np.zeros(1, dtype=np.intp), self.seed, _STARTS)[1]
-        q = self.conditions.brought(q, self.lock.poses[0])
+        q = self.conditions.brought(q, np.broadcast_to(self.lock.poses[0], (len(q), 4, 4)))
         q = q[~self._off(q, self.lock.poses[:1]) & self.conditions.holds(q)]
         chosen = [0] * bool(len(q))
         while 0 < len(chosen) < min(_FIRST, len(q)):
@@ -174,9 +175,9 @@ class Problem:
     def followed(self, q: Array) -> Flags:
         """(T, n) as :meth:`judge`, without leaving the path.
 
-        With more than one degree of redundancy the failed arm goes on with further joints held, or with the tool's axis held
-        that a cone leaves free, so that it has one way; a lock is survived if one such way leads to the end, or if the motion
-        itself does not move the joint any more.
+        With more than one degree of redundancy the failed arm goes on with further joints held, the same all the way or others
+        from pose to pose, or with the tool's axis held that a cone leaves free; a lock is survived if one such way leads to the
+        end, or if the motion itself does not move the joint any more.
         """
         if self.spare == 1:
             return tables.along(self.lock, q)
@@ -189,6 +190,10 @@ class Problem:
         narrower = self.narrower_at(q[0]) if np.isfinite(q[0]).all() else None
         if narrower is not None:
             survives |= narrower.followed(np.where(narrower.off(q)[:, None], np.nan, q))
+        asked = ~survives & np.isfinite(q).all(axis=1, keepdims=True)
+        if asked.any():
+            locks = [self.holding(dict.fromkeys(held, 0.0)).lock for held in self.sets[:CHANGED]]
+            survives |= tables.changing(locks, q, asked)
         return survives
 
     def stays(self, q: Array) -> Flags:

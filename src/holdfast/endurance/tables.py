@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +23,7 @@ Spans = list[tuple[float, float]]
 _PARTS = 16  # of a piece of a curve in which a verdict changes: in two rounds the place is known to a 256th
 
 _SAME = 1e-9  # rad and m
+KEPT = 4  # of the configurations that a failed arm with redundancy left may be in
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,3 +202,41 @@ def along(lock: Lock, q: Array, asked: Flags | None = None) -> Flags:
         at, begun, joint = at[good], begun[good], joint[good]
     survives[begun, joint] = True
     return survives
+
+
+def changing(locks: Sequence[Lock], q: Array, asked: Flags) -> Flags:
+    """(T, n) as :func:`along`, of an arm with redundancy left that may hold other joints, those of another lock, at every pose.
+
+    Of all configurations that this leads to a few are followed on, far apart.
+    """
+    survives = np.zeros(q.shape, dtype=bool)
+    survives[-1] = asked[-1]
+    at = np.empty((0, q.shape[1]))
+    begun, joint = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    for t in each("poses", range(len(q) - 1)):
+        fresh = np.flatnonzero(asked[t])
+        at = np.concatenate([at, np.repeat(q[t : t + 1], fresh.size, axis=0)])
+        begun, joint = np.concatenate([begun, np.full(fresh.size, t)]), np.concatenate([joint, fresh])
+        landed, row = [at[:0]], [begun[:0]]
+        for lock in locks:
+            some = np.flatnonzero(~np.isin(joint, list(lock.tracer.held)))
+            moved, good = lock.step(at[some], joint[some], t)
+            landed.append(moved[good])
+            row.append(some[good])
+        at, rows = np.concatenate(landed), np.concatenate(row)
+        begun, joint = begun[rows], joint[rows]
+        some = apart(at, begun * q.shape[1] + joint)
+        at, begun, joint = at[some], begun[some], joint[some]
+    survives[begun, joint] = True
+    return survives
+
+
+def apart(q: Array, owner: Index) -> Index:
+    """Which of q (N, n) to keep: of each owner (N,) the first and then, up to a few, the farthest from those that are kept."""
+    _, first, group = np.unique(owner, return_index=True, return_inverse=True)
+    kept, away = [first], np.full(len(q), np.inf)
+    for _ in range(KEPT - 1):
+        away = np.minimum(away, np.abs(q - q[kept[-1]][group]).max(axis=1))
+        order = np.lexsort((-away, group))
+        kept.append(order[np.flatnonzero(np.diff(group[order], prepend=-1))])
+    return np.unique(np.concatenate(kept))

@@ -211,7 +211,7 @@ def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: Arra
     return times, True
 
 
-def _drawn(law: Law, faults: Locking, locked: object) -> tuple[Array, bool]:
+def _drawn(law: Law, faults: Locking, locked: Any) -> tuple[Array, bool]:
     """Likewise of faults."""
     if not hasattr(faults, "times_of"):
         raise InputError(f"faults is {faults!r}; give those of an episode, by draw, or of many, by batch")

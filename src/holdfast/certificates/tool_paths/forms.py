@@ -359,7 +359,7 @@ class Following:
         return np.asarray((_MARGIN * (slope @ wide[:, :, None])[:, :, 0] < 0.998 * wide).all(axis=1))
 
     def _forward(self, reach: Array, left: Array, second: Array, half: Array, own: Array, place: Array) -> Flags:
-        """Whether turned cells only go forward on the path, and end within the segment, ``place`` (N,) from where that ends."""
+        """Whether turned cells only go forward on the path, and end within the segment, ``place`` (N,) from the end of that."""
         slope = self._slopes(reach, left, second, half)
         moves = _solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
         slower = (np.abs(own[:, -1, -self.m :]) * moves).sum(axis=1)

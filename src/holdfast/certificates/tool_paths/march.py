@@ -33,6 +33,7 @@ class Slab:
         centres: (n,) of each, in units of the file; 0 of joints that are not free. Of a cell that is turned, or the next
             one, that of the locked joint is the place on the path, in instants from the last knot.
         step: Of the next cell.
+        found: In the last of its cells, while it waits.
     """
 
     begin: int
@@ -41,6 +42,7 @@ class Slab:
     ends: list[int] = field(default_factory=list)
     centres: list[Ints] = field(default_factory=list)
     step: int = 0
+    found: Forms | None = None
 
     @property
     def anew(self) -> Slab:
@@ -68,7 +70,7 @@ class Slab:
 
 
 def led(f: Following, slab: Slab, before: Forms) -> tuple[list[int], list[Ints], Forms] | None:
-    """Turned cells from where a slab is, and one behind them that is not: ends, centres, and what is found in the last."""
+    """Turned cells behind what a slab has, and one behind them that is not: ends, centres, and what is found in the last."""
     base, first = slab.at // SEGMENT * SEGMENT, not slab.ends
     lock = np.array([slab.begin]), np.array([slab.stop])
     q, place = f.healthy(sum(lock), lock[1])[0][0], (slab.begin + slab.stop) / (2 * SEGMENT)
@@ -203,7 +205,7 @@ class March:
     @property
     def left(self) -> list[Slab]:
         """Slabs that have not begun, in order."""
-        return sorted(self._waiting, key=lambda slab: slab.begin)
+        return [slab.anew for slab in sorted(self._waiting, key=lambda slab: slab.begin)]
 
     def _filled(self) -> None:
         """Slabs that wait begin where there is room."""
@@ -211,13 +213,15 @@ class March:
         if not new:
             return
         self._moving += new
-        f, count = self.following, len(new)
+        f = self.following
         columns = 2 + len(f.tube) + f.m
         none = Forms(
-            np.zeros((count, f.n)), np.zeros(count), np.zeros(count, dtype=bool), np.zeros((count, f.m + 1, columns)),
-            np.zeros((count, columns)), np.zeros((count, f.m)), np.zeros(count, dtype=bool),
+            np.zeros((1, f.n)), np.zeros(1), np.zeros(1, dtype=bool), np.zeros((1, f.m + 1, columns)), np.zeros((1, columns)),
+            np.zeros((1, f.m)), np.zeros(1, dtype=bool),
         )  # fmt: skip
-        self._before = none if self._before is None else self._before.joined(none)
+        for slab in new:
+            found, slab.found = slab.found or none, None
+            self._before = found if self._before is None else self._before.joined(found)
 
     def _moved(self) -> None:
         """The next cell of each slab: found, or half as long, or given up."""
@@ -235,7 +239,7 @@ class March:
         forms = f.forms(q, cells)
         self.nodes += len(slabs)
         goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms))
-        good, kept, turned = forms.good & goes_on, list[int](), dict[int, Forms]()
+        good, kept = forms.good & goes_on, []
         for k, slab in enumerate(slabs):
             if good[k]:
                 slab.ends.append(slab.next)
@@ -243,50 +247,50 @@ class March:
                 slab.lengthened()
             elif not slab.shortest:
                 slab.step //= 2
-            elif (left := self._turned(slab, before.take(np.array([k])))) is not None:
-                turned[k] = left
             else:
-                self._given_up(slab)
+                slab.found = before.take(np.array([k]))
+                self._failed.append(slab)
                 continue
             if slab.at < self._end:
                 kept.append(k)
-                continue
-            self.proved.append(slab)
-            self.closed += slab.stop - slab.begin
-        chosen = np.array(kept, dtype=np.int64)
-        after = before.replaced(forms, good)
-        for k, left in turned.items():
-            after = after.replaced(left.take(np.zeros(len(slabs), dtype=np.int64)), np.arange(len(slabs)) == k)
-        self._before = after.take(chosen)
+            else:
+                self._done(slab)
+        self._before = before.replaced(forms, good).take(np.array(kept, dtype=np.int64))
         self._moving = [slabs[k] for k in kept]
 
-    def _turned(self, slab: Slab, before: Forms) -> Forms | None:
-        """What is found in the cell behind some that are turned, if these lead on from where a slab is; None: nothing does."""
+    def _done(self, slab: Slab) -> None:
+        """Proved."""
+        self.proved.append(slab)
+        self.closed += slab.stop - slab.begin
+
+    def _turned(self, slab: Slab) -> bool:
+        """Whether turned cells lead on from a slab, and one behind them that is not."""
         f = self.following
-        if len(f.tube) or slab.halvings < _PLAIN or (found := led(f, slab, before)) is None:
-            return None
-        ends, centres, left = found
+        assert slab.found is not None
+        found = None if len(f.tube) or slab.halvings < _PLAIN else led(f, slab, slab.found)
+        if found is None:
+            return False
+        ends, centres, slab.found = found
+        self.nodes += len(ends)
         slab.ends += ends
         slab.centres += centres
         slab.step = slab.at & -slab.at
         slab.lengthened()
-        return left
-
-    def _given_up(self, slab: Slab) -> None:
-        """To be halved, if that is of any use."""
-        if slab.halvings == self._halvings:
-            self.closed += slab.stop - slab.begin
+        if slab.at < self._end:
+            self._waiting.append(slab)
         else:
-            self._failed.append(slab)
+            self._done(slab)
+        return True
 
     def _halved(self) -> None:
-        """Those of slabs that were given up in which some lock instant, alone, is followed to the end."""
+        """Slabs that came no further go on in turned cells, or are halved, if lock instants, alone, are followed to the end."""
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
         ends = np.asarray(self.following.finishes(locks.ravel())).reshape(-1, 3)
-        some = [bool(any(row)) for row in ends]
-        for slab, (begin, middle, stop), good in zip(slabs, locks.tolist(), some, strict=True):
-            if not good:
+        for slab, (begin, middle, stop), good in zip(slabs, locks.tolist(), ends, strict=True):
+            if good.all() and self._turned(slab):
+                continue
+            if not good.any() or slab.halvings == self._halvings:
                 self.closed += stop - begin
                 continue
             for a, b in ((begin, middle), (middle, stop)):

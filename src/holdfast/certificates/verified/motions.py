@@ -165,7 +165,7 @@ class Faults:
             slope[:, : self.linear] += (np.einsum("k,nkb,nk->nb", self.lengths, own, c**2) / 2)[:, None]
             turned += own[:, -1]
         slope[:, self.linear :] += (turned * (far.sum(axis=1) ** 2)[:, None] / 2)[:, None]
-        return slope * UP * UP + LEAST
+        return np.asarray(slope * UP * UP + LEAST)
 
     def contracts(self, parts: dict[str, Array], w: Array, s: Array) -> Flags:
         """Whether s -> s - g moves any two points of the box nearer to each other."""
@@ -173,7 +173,7 @@ class Faults:
         return np.asarray((np.einsum("nab,nb->na", slope, s) * UP + LEAST < 0.999 * s).all(axis=1))
 
     def forward(self, parts: dict[str, Array], w: Array, own: Balls, place: Array) -> Flags:
-        """Whether turned cells only go forward on the path, and end within the segment; place (N,) from where that ends.
+        """Whether turned cells only go forward on the path, and end within the segment; place (N,) from the end of that.
 
         As motions begin in it, they stay there. Where slopes by s are at most M, and by the path at most b, the solution moves
         by at most u if b + M u <= u.
@@ -245,8 +245,8 @@ class Faults:
         if turned.any():
             some = {key: part[turned] for key, part in parts.items()}
             good[turned] &= self.forward(some, w[turned], own[turned], (middle - (ends - 1) // SEGMENT - 1)[turned])
-        here, ones = joined(q[:, free], Balls(middle[:, None])), Balls(np.ones((len(ends), 1)))
-        lock = joined(locked[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))), joined(rate[:, free], ones)
+        here, each = joined(q[:, free], Balls(middle[:, None])), Balls(np.ones((len(ends), 1)))
+        lock = joined(locked[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))), joined(rate[:, free], each)
         good &= self.glued(here, own, w, wide, lock, first, turned)
         return np.split(good, np.cumsum(counts)[:-1])
 

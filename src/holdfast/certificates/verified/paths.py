@@ -122,7 +122,7 @@ def slabs(document: dict[str, Any]) -> Iterator[Slab]:
             cells = _cells(begin, given, some[:, lock["joint"]])
             some[:, lock["joint"]] = 0
             need((cells[:, 2] == 0).all() or not any(map(real, document["tube"])), "in a tube there are no turned cells")
-            need(cells[-1, 1] == end and not cells[-1, 2], "cells of a slab do not come to the end")
+            need(cells[-1, 1] == end and not cells[-1, 2], "cells of a slab end before the path")
             need(cells[0, 2] or cells[0, 1] >= stop, "the first cell of a slab does not hold it")
             yield which, (begin, stop), cells, some
             at, used, after = at + 3 + count, used + count, stop

@@ -66,17 +66,17 @@ class Observability(Result):
         seen = f"{n - len(self.unseen)} of {n} joints"
         lines = [f"the tool's pose alone shows the lock of {seen} on this motion of {self.duration:.3g} s"]
         lines += [f"not shown: {', '.join(self.unseen)}"] if self.unseen else []
-        lines += [f"{a} and {b} cannot be told apart" for a, b in self.together]
+        lines += [f"locks of {a} and {b} cannot be told apart" for a, b in self.together]
         if self.delays is not None and self.strayed is not None:
             found = np.isfinite(self.delays)
             for k, name in enumerate(names):
                 here = found[:, k]
                 if not here.any():
-                    lines.append(f"{name}: its lock would not be noticed by joint sensors or torques")
+                    lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
                     continue
                 late, far = np.median(self.delays[here, k]), np.median(self.strayed[here, k])
                 lines.append(
-                    f"{name}: noticed {1e3 * late:.3g} ms after it locks, with the tool {1e3 * far:.2g} mm off (medians; "
+                    f"a lock of {name} is noticed after {1e3 * late:.3g} ms, with the tool {1e3 * far:.2g} mm off (medians; "
                     f"{here.mean():.0%} of the times at which it may lock)"
                 )
         if self.alike:

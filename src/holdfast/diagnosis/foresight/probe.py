@@ -99,8 +99,8 @@ class Probe(Result):
         for name in self.untestable:
             still = self.visible[names.index(name)] < _INVISIBLE
             never = ": no self-motion moves it here, and its lock is not tolerable here either" if still else ""
-            lines.append(f"{name} cannot be tested{never}")
-        lines += [f"{a} and {b} cannot be told apart" for a, b in self.together]
+            lines.append(f"a lock of {name} cannot be tested{never}")
+        lines += [f"locks of {a} and {b} cannot be told apart" for a, b in self.together]
         return [*lines, f"the tool stays within {1e3 * self.tool:.2g} mm of where it is while nothing is locked"]
 
     def to_csv(self, file: str | Path) -> Path:

@@ -12,6 +12,7 @@ the wrist does, or a gripper beside a forearm. The other joints are then anywher
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass
 from itertools import islice, product
 from typing import TYPE_CHECKING
@@ -48,6 +49,9 @@ _SLACK = 1e-9  # m and rad: rounding
 _ROOT = 1e-7  # m: rounding of a square root where two squares cancel
 _BALLS = 24  # along a body
 _CHUNK = 4096
+_LOOKED = 64  # configurations
+_MOST_CONFINED = 25_000  # the same of some of more joints
+_REACH = 0.15  # m: deeper in an object hardly a ball is
 _FEW, _TRIED = 2, 2  # of more joints: over how many of them a flood goes, and how often it is tried
 
 
@@ -66,15 +70,20 @@ def disconnected(space: Space, start: Array, holds: Holds) -> str | None:
 
 
 def confined(space: Space, start: Array, known: Array) -> Iterator[Flood]:
-    """Floods over one or two of more than three joints that move, where the arm itself keeps them from getting anywhere.
+    """Floods over one or two of more than three joints that move, where these cannot get anywhere, wherever the others are.
 
-    Those that hold none of the configurations (K, n) that are known of the goal, at most two over the same joints.
+    Those between two links that touch each other, and the first two, whose links touch objects. Only floods that hold none of
+    the configurations (K, n) that are known of the goal, at most two over the same joints.
     """
     if space.clearance is None or space.free.sum() <= _JOINTS:
         return
-    itself = BlockedBoxes(space.clearance, space.margin, (space.low, space.high)).by_itself
-    for joints in _between_links(space.clearance, np.flatnonzero(space.free)):
-        floods = _floods(space, start, joints, itself)
+    blocked, joints = _Blocked(space), np.flatnonzero(space.free)
+    itself, first = blocked.itself, joints[:_FEW]
+    tried: list[tuple[Indices, Blocked]] = (
+        [] if itself is None else [(some, itself.by_itself) for some in _between_links(space.clearance, joints)]
+    )
+    for some, what in [*tried, (first, blocked.moved_by(first))]:
+        floods = _floods(space, start, some, what, _MOST_CONFINED)
         yield from islice((flood for flood in floods if flood.misses(known, np.zeros_like(known)).all()), _TRIED)
 
 
@@ -143,7 +152,7 @@ class Flood:
         return total == 0
 
 
-def _floods(space: Space, start: Array, joints: Indices, blocked: Blocked) -> Iterator[Flood]:
+def _floods(space: Space, start: Array, joints: Indices, blocked: Blocked, most: int | None = None) -> Iterator[Flood]:
     """What is joined to a start (n,), cells halved again and again; the other joints anywhere within their limits."""
     box = _box(space, joints)
     if box is None:
@@ -153,7 +162,7 @@ def _floods(space: Space, start: Array, joints: Indices, blocked: Blocked) -> It
     count, looked_at = _FIRST, 0
     cells = np.array(list(product(range(count), repeat=len(joints))), dtype=np.int64)
     anywhere, half = (space.low + space.high) / 2, (space.high - space.low) / 2
-    while looked_at + len(cells) <= _MOST[len(joints)] and not space.spent:
+    while looked_at + len(cells) <= (most or _MOST[len(joints)]) and not space.spent:
         half = half.copy()
         half[joints] = (high - low) / (2 * count)
         middle = np.tile(anywhere, (len(cells), 1))
@@ -315,7 +324,18 @@ class _Blocked:
             apart = seen.apart[self._points.link + 1, k] if len(rows) else np.zeros(0, dtype=bool)
             self._objects += [(inner, seen.cell.margin_of(solid), apart) for inner in solids_within(solid)]
         own = space.clearance
-        self._itself = None if own is None else BlockedBoxes(own, space.margin, (space.low, space.high))
+        self.itself = None if own is None else BlockedBoxes(own, space.margin, (space.low, space.high))
+
+    def moved_by(self, joints: Indices) -> _Blocked:
+        """The same without balls that the other joints always move too far for them to tell anything."""
+        space, half = self._space, (self._space.high - self._space.low) / 2
+        half[joints] = 0.0
+        frames = space.arm.frames(space.sample(_LOOKED, np.random.default_rng(0)))
+        some = self._points.moved(space.arm, frames, half).min(axis=0) < self._radius + _REACH
+        other = copy(self)
+        other._points, other._radius = _Points(self._points.link[some], self._points.at[some]), self._radius[some]
+        other._objects = [(solid, margin, apart[some]) for solid, margin, apart in self._objects]
+        return other
 
     def __call__(self, q: Array, halves: Array) -> Flags:
         """(N,) True where everything within ``halves`` (N, n), all rows the same, of q (N, n) is blocked."""
@@ -323,8 +343,8 @@ class _Blocked:
         space, found = self._space, np.zeros(len(q), dtype=bool)
         if space.manifold is not None:
             found |= (space.manifold.gaps(q) + space.manifold.changes(half[None]) < -_SLACK).any(axis=1)
-        if self._itself is not None:
-            found |= self._itself.by_itself(q, halves)
+        if self.itself is not None:
+            found |= self.itself.by_itself(q, halves)
         if not self._objects or not len(self._radius):
             return found
         frames = space.arm.frames(q)
