@@ -27,10 +27,6 @@ def one_line(chosen: argparse.Namespace) -> str:
     grids = [(26, 0.1, [])] if chosen.quick else [(51, 0.1, []), (101, 0.05, []), (201, 0.025, [])]
     if not chosen.quick:
         grids.insert(2, (101, 0.05, ["least-norm", index]))
-        [(26, 0.1, [])]
-        if chosen.quick
-        else [(51, 0.1, []), (101, 0.05, []), (101, 0.05, ["least-norm", index]), (201, 0.025, [])]
-    )
     rows = []
     for samples, spacing, compare in grids:
         times = []
@@ -47,9 +43,7 @@ def one_line(chosen: argparse.Namespace) -> str:
     return (
         "### W16 E1: the motion that survives most locks on a line of 1 m, Panda, tool down, 10 s, equal rates\n\n"
         "| poses x spacing | motions compared | survival | gap | processor s, least | wall s, least |\n"
-        "| --- | ---: | ---: | ---: | ---: | ---: |\n"
-        + "\n".join(rows)
-        + "\n"
+        "| --- | ---: | ---: | ---: | ---: | ---: |\n" + "\n".join(rows) + "\n"
     )
 
 

@@ -7,7 +7,6 @@ import time
 import flint
 import numpy as np
 
-from holdfast.certificates.claims import ROWS
 from holdfast.certificates.taylor import Form, Reach
 
 WIDE = 1e3  # rad: limits that are none
@@ -15,7 +14,7 @@ WIDE = 1e3  # rad: limits that are none
 
 def sampled(claim, budget):
     """What random targets and locked angles tell in so many seconds: how many were tried, how many were not reached."""
-    reach = Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits)
+    reach = Reach(claim.arm, claim.task, claim.locked, claim.limits)
     generator, end = np.random.default_rng(17), time.perf_counter() + min(budget, 20.0)
     tried = missed = 0
     while time.perf_counter() < end:
@@ -47,7 +46,7 @@ def half_widths(arm, locked, at, q):
     Returns:
         By Taylor forms, and by the mean-value form with the Jacobian over the box in balls; of those that reach their target.
     """
-    reach = Reach(arm, 3, locked, np.tile([-WIDE, WIDE], (arm.n, 1)))
+    reach = Reach(arm, "position", locked, np.tile([-WIDE, WIDE], (arm.n, 1)))
     q = reach.solved(reach.placed(q, at), at[:, :3], 60)
     met = reach.missed(q, at[:, :3])[:, 0] < 1e-9
     q, at = q[met], at[met]

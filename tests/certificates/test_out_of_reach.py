@@ -246,10 +246,52 @@ def test_a_forged_witness_is_rejected(three, tmp_path):
         assert ("Refuted" in verdict.sentence) == good
 
 
-def test_what_makes_no_claim(panda, three, mixed5):
-    with pytest.raises(InputError, match="slides"):
-        out_of_reach_claim(mixed5, (0.5, 0, 0.5), 0.1)
+def test_what_makes_no_claim(panda, three):
     with pytest.raises(InputError, match="move in the xy plane"):
         out_of_reach_claim(panda, (0.5, 0.5), 0.1)
     with pytest.raises(InputError, match="lower one first"):
         out_of_reach_claim(three, (0.5, 0.5), 0.1, locked={0: (1, 0)})
+
+
+# ---- rotations, slides, single targets ---------------------------------------------------------------------------------
+
+START = np.radians([20, -10, 15, -110, -10, 105, 60])
+
+
+def test_a_slide_and_a_single_target(mixed5, rng, tmp_path):
+    far = np.linalg.norm(
+        mixed5.forward_kinematics(rng.uniform(mixed5.lower, mixed5.upper, (20_000, 5)))[:, :3, 3], axis=1
+    ).max()
+    proof = hf.certify(out_of_reach_claim(mixed5, (3 * far, 0, 0.1), 0, limits={0: (0.3, 0.3)}))
+    assert proof.ok
+    assert whole(checked(proof, tmp_path))
+
+
+@pytest.mark.parametrize(("turned", "fine"), [(0.0, False), (2.8, True)])
+def test_a_planar_pose(three, tmp_path, turned, fine):
+    """Three links of 1 m: turned otherwise, the elbow behind the tool would be out of reach."""
+    tip = three.forward_kinematics(np.array([0.3, 0.4, 0.5]))
+    yaw = 1.2 + turned
+    claim = out_of_reach_claim(three, tip[:2, 3], 0.02, rpy=(yaw - 0.01, yaw + 0.01))
+    elbow = tip[:2, 3] - [np.cos(yaw), np.sin(yaw)]
+    assert (np.linalg.norm(elbow) > 2.05) == fine
+    proof = hf.certify(claim)
+    assert proof.ok == fine
+    assert proof.refuted != fine
+    check = checked(proof, tmp_path)
+    assert check.rejected == 0
+    assert check.leaves > 0
+
+
+def test_a_pose_of_a_locked_panda(panda, tmp_path):
+    """The elbow where it is: the pose there has a witness, what is 0.4 m away is out of reach."""
+    tip, still = panda.forward_kinematics(START), {3: (START[3], START[3])}
+    proof = hf.certify(out_of_reach_claim(panda, tip[:3, 3], 0, rotation=tip[:3, :3], limits=still))
+    assert proof.refuted
+    assert checked(proof, tmp_path).said.startswith("Refuted")
+    for task in (None, "pointing"):
+        proof = hf.certify(
+            out_of_reach_claim(panda, tip[:3, 3] + [0.3, 0, 0.3], 0, rotation=tip[:3, :3], task=task, limits=still)
+        )
+        assert proof.ok
+        assert whole(checked(proof, tmp_path))

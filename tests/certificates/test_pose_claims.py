@@ -33,7 +33,7 @@ def test_the_error_is_never_larger_than_its_bound(locked, turning, rng):
     tool = arm.forward_kinematics(q)
     nearly = Rotation.from_rotvec(rng.uniform(-0.01, 0.01, 3)).as_matrix()
     wanted = (tool[:, :3, :3] @ nearly) if turning else np.tile(tool[0, :3, :3] @ nearly, (count, 1, 1))
-    reach = Reach(arm, 6, locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
+    reach = Reach(arm, "pose", locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
     targets = tool[:, :3, 3] + rng.uniform(-1e-3, 1e-3, (count, 3))
     if turning:
         targets = np.concatenate([targets, Rotation.from_matrix(wanted).as_euler("xyz")], axis=1)
@@ -168,3 +168,37 @@ def test_a_pose_needs_six_joints():
     arm = hf.arms.load("ur5")
     with pytest.raises(InputError, match="5 joints are left for 6 rows"):
         reach_claim(arm, (0.4, 0.1, 0.3), 0.01, rotation=np.eye(3), locked={0: (0, 0.1)})
+
+
+def test_pointing_and_a_planar_pose(panda, three, tmp_path, rng):
+    """Random targets and locked angles of proved boxes: scipy finds a configuration with the tool there, turned so."""
+    tip = panda.forward_kinematics(START)
+    claims = [
+        reach_claim(panda, tip[:3, 3], 0.01, rotation=tip[:3, :3], task="pointing", locked={6: (1.0, 1.1)}),
+        reach_claim(three, (1.5, 0.5), 0.05, rpy=(0.8, 0.85)),
+        reach_claim(panda, tip[:3, 3], 0.02, locked={1: (START[1] - 0.02, START[1] + 0.02)}, limits={4: (START[4],) * 2}),
+    ]
+    for claim in claims:
+        proof = hf.certify(claim)
+        assert proof.ok
+        assert hf.check_certificate(proof.write(tmp_path / "a.certificate")).ok
+        target, free = (
+            rng.uniform(*claim.box.T),
+            (claim.limits[:, 0] < claim.limits[:, 1]) & (np.arange(claim.arm.n) != claim.locked),
+        )
+        q = np.clip(np.where(free, START[: claim.arm.n], claim.limits[:, 0]), *claim.limits.T)
+        if claim.locked >= 0:
+            q[claim.locked] = rng.uniform(*claim.angle)
+
+        def off(x, claim=claim, target=target, free=free, q=q):
+            full = q.copy()
+            full[free] = x
+            at = claim.arm.forward_kinematics(full)
+            place = at[:3, 3][: 2 if claim.task == "planar-pose" else 3] - target[:3][: 2 if claim.task == "planar-pose" else 3]
+            yaw = target[-1]
+            turned = {"pointing": at[:3, 2] - tip[:3, 2], "planar-pose": at[:2, 0] - [np.cos(yaw), np.sin(yaw)]}
+            return np.append(place, turned.get(claim.task, np.zeros(6 - len(place))))
+
+        starts = [q[free], *rng.uniform(-1.5, 1.5, (20, int(free.sum())))]
+        found = min(np.abs(least_squares(off, x, xtol=1e-15, ftol=1e-15, gtol=1e-15).fun).max() for x in starts)
+        assert found < 1e-8

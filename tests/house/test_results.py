@@ -57,6 +57,7 @@ VALUES = named(
         "bench": "Motion Score",
         "control": "Deviations",
         "clearance": "CheckedObject Contact",
+        "ceilings": "Average",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
         "certificates": "SearchState",

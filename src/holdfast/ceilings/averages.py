@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,8 @@ Array = NDArray[np.float64]
 _SMALL = 1e-15
 
 
-class Average(NamedTuple):
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Average:
     """What no arm can beat on average.
 
     Attributes:
@@ -61,7 +62,8 @@ def best_average(rates: ArrayLike, m: int) -> Average:
     squares[order] = np.minimum(np.concatenate([np.ones(full), scale * falling[full:]]), 1.0)
     null = np.empty((n, n - m))
     null[order] = _with_lengths(squares[order], n - m)
-    return Average(float(weight @ np.sqrt(squares)), np.sqrt(squares), null)
+    left = np.sqrt(squares)
+    return Average(value=float(weight @ left), left=left, null_space=null)
 
 
 def _with_lengths(squares: Array, p: int) -> Array:

@@ -157,7 +157,7 @@ def _common(
     }
     if isinstance(claim, BoundClaim | StructuralZeroClaim | PathClaim):
         return made
-    return made | {"target": {"axes": "xyzRPY"[: len(claim.box)], "box": _hexes(claim.box), "orientation": _turned(claim)}}
+    return made | {"target": {"axes": _axes(claim), "box": _hexes(claim.box), "orientation": _turned(claim)}}
 
 
 def _asked(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> Document:
@@ -177,8 +177,12 @@ def _asked(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> Docu
 
 
 def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
-    rotation = None if isinstance(claim, OutOfReachClaim) else claim.rotation
-    return None if rotation is None else [x for row in _hexes(rotation) for x in row]
+    return None if claim.rotation is None else [x for row in _hexes(claim.rotation) for x in row]
+
+
+def _axes(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> str:
+    """Letters of a target's numbers."""
+    return {"planar": "xy", "planar-pose": "xya"}.get(claim.task, "xyzRPY"[: len(claim.box)])
 
 
 def _signed(document: Document) -> Document:

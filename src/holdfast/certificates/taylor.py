@@ -78,10 +78,11 @@ class Reach:
 
     Args:
         arm: The arm.
-        m: Rows: 3 (position), 2 (planar) or 6 (pose).
+        task: ``planar``, ``planar-pose``, ``position``, ``pointing`` or ``pose``.
         locked: Index of the locked joint; -1: none.
         limits: (n, 2) rad.
-        rotation: (3, 3) of the tool, for 6 rows; None: the last three numbers of a target are roll, pitch and yaw.
+        rotation: (3, 3) of the tool, where it counts; None: the last numbers of a target are roll, pitch and yaw, in the plane
+            yaw alone.
         angle: (2,) where the joint may be locked, rad or m; of a joint that turns it does not matter.
 
     Attributes:
@@ -91,18 +92,22 @@ class Reach:
     """
 
     def __init__(
-        self, arm: Arm, m: int, locked: int, limits: Array, rotation: Array | None = None, angle: Array | None = None
+        self, arm: Arm, task: str, locked: int, limits: Array, rotation: Array | None = None, angle: Array | None = None
     ) -> None:
-        self.arm, self.m, self.locked, self.limits = arm, m, locked, limits
+        self.arm, self.locked, self.limits = arm, locked, limits
         self.n = arm.n
-        self.free = np.arange(self.n) != locked
+        at = np.arange(self.n) == locked
+        self.still = ~at & (limits[:, 0] == limits[:, 1])
+        self.free = ~at & ~self.still
         self.slides = arm.prismatic
-        self.expansion = Expansion(arm, m, 3 if m == 6 and rotation is None else 0, Chain.of(arm).lengths, self.slides)
+        turning = {"pose": 3, "planar-pose": 1}.get(task, 0) if rotation is None else 0
+        self.expansion = Expansion(arm, task, turning, _lengths(arm, task), self.slides)
+        self.m, self.rotated = self.expansion.m, self.expansion.rotated
         self.axes, self.linear = self.expansion.axes, self.expansion.linear
         self._rotation = np.empty(0) if rotation is None else np.asarray(rotation).ravel()
-        self._free, self._at = self.free.astype(float), (~self.free).astype(float)
+        self._free, self._at = self.free.astype(float), at.astype(float)
         held = 0.0 if angle is None else float(np.abs(angle).max())
-        self._held = self.slides * ~self.free * held
+        self._held = self.slides * at * held
         self._limits = np.clip(limits.T, -_NEVER, _NEVER)
 
     @property
@@ -124,11 +129,10 @@ class Reach:
         return bool(self.free.sum() > self.m)
 
     def placed(self, q: Array, at: Array) -> Array:
-        """Configurations (N, n) with the locked joint where targets and locked angles (N, A) say."""
-        if self.locked < 0:
-            return q
-        q = q.copy()
-        q[:, self.locked] = at[:, -1]
+        """Configurations (N, n) with the locked joint where targets and locked angles (N, A) say, others being still."""
+        q = np.where(self.still, self.limits[:, 0], q)
+        if self.locked >= 0:
+            q[:, self.locked] = at[:, -1]
         return q
 
     def given(self, targets: Array) -> Array:
@@ -149,6 +153,14 @@ class Reach:
     def along(self, q: Array, moves: Array) -> Array:
         """Of moves (N, n) at q (N, n), what keeps the tool where it is, to first order."""
         return self.expansion.along.rows(q, moves, self._free)
+
+
+def _lengths(arm: Arm, task: str) -> Array:
+    """(n,) m, of what joints turn; in the plane heights count nothing."""
+    chain = Chain.of(arm)
+    if task != "planar-pose":
+        return chain.lengths
+    return np.asarray(np.linalg.norm(chain.origins[1:, :2], axis=1))
 
 
 @dataclass(frozen=True, eq=False)

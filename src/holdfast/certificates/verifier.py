@@ -60,6 +60,12 @@ else:  # run as a file: the folder lies beside it
     from verified.words import per_cent
     from verified.zeros import meeting
 
+__all__ = [  # what others take from here
+    "FOR_PEOPLE", "MOST_LEAVES", "MOST_STEPS", "Apart", "Cell", "Leaves", "Motions", "Refused", "Verdict", "Wrenches", "cells",
+    "covered", "digest", "exact_rotation", "load", "motions", "paths", "per_cent", "sentence", "snap", "unpacked", "verify",
+    "volume",
+]  # fmt: skip
+
 CHUNK = 256
 LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
 LEMMA = 3  # in a refutation: what the first lemma excludes; 0: where the tool itself is elsewhere

@@ -28,7 +28,7 @@ RotationOption = Annotated[
     str | None,
     typer.Option(
         "--rotation",
-        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll). Default: it may be any.",
+        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
         show_default=False,
     ),
 ]
@@ -36,9 +36,12 @@ TurnsOption = Annotated[
     str | None,
     typer.Option(
         "--rotation-size",
-        help="Edges of a box of roll, pitch and yaw around --rotation, rad: one number, or three. Default: none.",
+        help="Edges of a box around --rotation, rad: one number, or three. Default: none.",
         show_default=False,
     ),
+]
+PointingOption = Annotated[
+    bool, typer.Option("--pointing", help="Of --rotation only where the tool's z axis points counts, not its turn about it.")
 ]
 AroundOption = Annotated[
     str | None,

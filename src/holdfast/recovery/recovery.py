@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from holdfast.arm.task import Task
 from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.sharper import Sharper
-from holdfast.errors import HoldfastError, StoreError
+from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.failures import Degraded
 from holdfast.keep.kept import Kept
 from holdfast.recovery.continuation import RestOfPath
@@ -27,6 +27,9 @@ from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
 from holdfast.words import capitalised
+
+if TYPE_CHECKING:
+    from holdfast.certificates.joint_boxes.refutations import Refutation
 
 Array = NDArray[np.float64]
 Answer = Literal["solved", "proved infeasible", "argued infeasible", "undecided"]
@@ -263,6 +266,28 @@ class Recovery(Result):
     def lower_bound(self) -> float:
         """Sum of the legs' lower bounds, in ``unit``: between the ends that were chosen nothing is shorter."""
         return sum(leg.lower_bound for leg in self.legs)
+
+    def certificate(self, *, time_limit: float | None = 60.0) -> Refutation:
+        """The proof that the goal has no configuration, as a certificate that the verifier checks: ``.write(file)``.
+
+        It is searched for anew, with the joints that are locked at equal limits. Proofs about boxes of joints and about the
+        arm's length have one; those about objects, about the arm's own links, about a way between configurations, about what is
+        kept all the way and about a pose of a tool path have none.
+
+        Args:
+            time_limit: s.
+
+        Raises:
+            InputError: A proof of another kind, or none, a goal of several poses, or nothing proved of the arm alone.
+        """
+        from holdfast.recovery.proofs.refuted_poses import refuted_pose
+
+        if self.proof_kind not in ("reach bound", "boxes") or self.goal_pose is None:
+            kind = f"'{self.proof_kind}'" if self.proof_kind else "none"
+            raise InputError(f"only proofs of the kinds 'reach bound' and 'boxes' have a certificate, and this one is {kind}")
+        if self.goal.startswith("any of"):
+            raise InputError("a certificate is about one pose, and the goal is several; ask for each of them")
+        return refuted_pose(self.degraded, self.task, self.goal_pose, time_limit)
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the waypoints, or the motion as it is timed; see :func:`holdfast.recovery.read_waypoints`.

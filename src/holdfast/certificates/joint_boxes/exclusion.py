@@ -15,10 +15,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.claims import ROWS, OutOfReachClaim
+from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.crew import Effort
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index, need_room
 from holdfast.certificates.joint_boxes.jobs import halved
+from holdfast.certificates.joint_boxes.rows import Rows
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain, Reach
 
@@ -31,6 +32,7 @@ _SAMPLES, _CLIMBERS, _CLIMBS = 2048, 32, 60
 _LEMMA_NODES = 40_000
 _NARROW = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
 _LEMMA_HALVINGS = 40
+_MET, _ROOM = 1e-10, 1e-6  # m and rad: of a target, and from limits, of a witness
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +80,7 @@ def ranges(claim: OutOfReachClaim) -> Array:
     if claim.angle is not None:
         kept[claim.locked] = claim.angle
     turn = np.nextafter(np.pi, 4)
-    kept[kept[:, 1] - kept[:, 0] >= 2 * np.pi] = -turn, turn
+    kept[~claim.arm.prismatic & (kept[:, 1] - kept[:, 0] >= 2 * np.pi)] = -turn, turn
     return kept
 
 
@@ -88,19 +90,21 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) ->
     found = _witness(claim, rng)
     if found is not None:
         return Exclusion([], b"\2", Fraction(1), 0, 1, True, found)
-    chain, joints, m = Chain.of(claim.arm), ranges(claim), ROWS[claim.task]
-    if m == 2:  # all of it happens in the plane
+    chain, joints = Chain.of(claim.arm), ranges(claim)
+    if claim.task.startswith("planar"):  # all of it happens in the plane
         chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
-    box, lemmas, tested = np.vstack([joints, claim.box]), list[Lemma](), 0
-    for link, point in _points(chain, joints, rng)[:_MOST_LEMMAS]:
-        lemma, nodes = _lemma(chain, joints, claim.box, link, point, effort.end, rng)
+    box, lemmas, tested, rows = np.vstack([joints, claim.box]), list[Lemma](), 0, Rows(claim, joints)
+    place = claim.box[: rows.reach.linear]
+    points = [] if claim.arm.prismatic.any() else _points(chain, joints, rng)[:_MOST_LEMMAS]  # lemmas are of joints that turn
+    for link, point in points:
+        lemma, nodes = _lemma(chain, joints, place, link, point, effort.end, rng)
         tested += nodes
         if lemma is not None:
             lemmas.append(lemma)
-            root, _ = _Apart(chain, lemmas, m)(box.mean(axis=1)[None], np.diff(box).T / 2)
+            root, _ = _Apart(chain, lemmas, rows)(box.mean(axis=1)[None], np.diff(box).T / 2)
             if root[0] != OPEN:  # nothing more is needed
                 break
-    test = _Apart(chain, lemmas, m)
+    test = _Apart(chain, lemmas, rows)
     need_room(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
     main = halved(test, box, halvings, effort)
     tree = main.tree
@@ -120,16 +124,15 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) ->
 class _Apart:
     """The test of boxes of configurations and targets: which lemma, or the tool itself, tells them apart."""
 
-    def __init__(self, chain: Chain, lemmas: list[Lemma], m: int) -> None:
-        self.n, self.m, self.lemmas = len(chain.lengths), m, lemmas
+    def __init__(self, chain: Chain, lemmas: list[Lemma], rows: Rows) -> None:
+        self.n, self.m, self.lemmas, self.rows = len(chain.lengths), rows.reach.linear, lemmas, rows
         self.parts = [Segment.of(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
-        self.tool = Segment.of(chain, 0, self.n, chain.origins[-1])
 
     def __call__(self, middle: Array, half: Array) -> tuple[Index, Array]:
         count, n = len(middle), self.n
         found, part, gain = np.full(count, OPEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
         x, wide = np.zeros((count, 3)), np.zeros((count, 3))
-        x[:, : self.m], wide[:, : self.m] = middle[:, n:], half[:, n:]
+        x[:, : self.m], wide[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
 
         def take(rows: Index, token: int, spare: Array, gap: Array, each: Array, joints: int) -> None:
             """What one test gives: by how much it excludes, how far apart the middles are, what each axis costs."""
@@ -138,7 +141,8 @@ class _Apart:
             better = share > part[rows]
             rows, each = rows[better], each[better]
             part[rows], gain[rows] = share[better], 0.0
-            gain[rows, :joints], gain[rows, n:] = each[:, :joints], each[:, joints : joints + self.m]
+            more = each.shape[1] if joints == n else joints + self.m
+            gain[rows, :joints], gain[rows, n : n + more - joints] = each[:, :joints], each[:, joints:more]
 
         for k, (lemma, segment) in enumerate(zip(self.lemmas, self.parts, strict=True)):
             rows = np.flatnonzero(found == OPEN)
@@ -152,7 +156,7 @@ class _Apart:
                 bound, gap, each = segment.farthest(q[near], h[near], x[rows[near]], wide[rows[near]])
                 take(rows[near], LEMMA + k, lemma.least - bound, lemma.least - gap, each, lemma.link)
         rows = np.flatnonzero(found == OPEN)
-        bound, gap, each = self.tool.nearest(middle[rows, :n], half[rows, :n], x[rows], wide[rows])
+        bound, gap, each = self.rows.nearest(middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:])
         take(rows, 0, bound, gap, each, n)
         return found, gain
 
@@ -241,11 +245,10 @@ def _span(segment: Segment, joints: Array, point: Array, rng: np.random.Generato
 
 def _witness(claim: OutOfReachClaim, rng: np.random.Generator) -> Array | None:
     """A configuration within the claim whose tool is inside the box, or None."""
-    m, joints = ROWS[claim.task], ranges(claim)
-    reach = Reach(claim.arm, m, claim.locked, joints)
-    targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, m))
+    joints = ranges(claim)
+    reach = Reach(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
+    targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, len(claim.box)))
     q = reach.solved(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
-    at = claim.arm.forward_kinematics(q)[:, :m, 3]
-    inside = ((at > claim.box[:, 0] + 1e-9) & (at < claim.box[:, 1] - 1e-9)).all(axis=1)
-    inside &= ((q >= joints[:, 0]) & (q <= joints[:, 1])).all(axis=1)
-    return q[inside.argmax()] if inside.any() else None
+    met = (reach.missed(q, targets) < _MET).all(axis=1)
+    met &= ((q >= joints[:, 0] + _ROOM) & (q <= joints[:, 1] - _ROOM) | ~reach.free).all(axis=1)
+    return q[met.argmax()] if met.any() else None

@@ -104,7 +104,7 @@ class Segment:
         for e in (v / d[:, None], fisher / np.maximum(np.linalg.norm(fisher, axis=1), 1e-300)[:, None]):
             slope = np.abs(np.einsum("na,nka->nk", e, columns))
             second = np.einsum("nja,nka->njk", np.cross(e[:, None], axes), columns)
-            cost, mixed = _costs(slope, second, half)
+            cost, mixed = costs(slope, second, half)
             aside = np.abs(e) * wide
             gap = np.einsum("na,na->n", e, v)
             bound = gap - cost.sum(axis=1) - mixed.sum(axis=1) / 2 - third - aside.sum(axis=1)
@@ -134,14 +134,14 @@ class Segment:
         whole = np.concatenate([columns, np.broadcast_to(-np.eye(3), (count, 3, 3))], axis=1)
         second = np.einsum("nja,nka->njk", whole, whole)
         second[:, :joints, :joints] += np.einsum("nja,nka->njk", np.cross(v[:, None], axes), columns)
-        cost, mixed = _costs(np.abs(np.einsum("na,nka->nk", v, whole)), -second, width)
+        cost, mixed = costs(np.abs(np.einsum("na,nka->nk", v, whole)), -second, width)
         bound = d**2 / 2 + cost.sum(axis=1) + mixed.sum(axis=1) / 2 + third
         each = cost + mixed
         each[:, :joints] += (d + v1)[:, None] * _later(self.lengths * turned**2) * half / 2
         return np.sqrt(2 * bound), d, each
 
 
-def _costs(slope: Array, second: Array, half: Array) -> tuple[Array, Array]:
+def costs(slope: Array, second: Array, half: Array) -> tuple[Array, Array]:
     """Of each variable what slope and own curvature cost (N, k), and its part in all pairs (N, k): half of them is the sum.
 
     Args:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import verifier
-from holdfast.certificates.claims import ROWS, ReachClaim
+from holdfast.certificates.claims import ReachClaim
 from holdfast.certificates.target_boxes.search import Search
 from holdfast.certificates.taylor import Reach
 from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, undecided
@@ -169,7 +169,7 @@ class Running:
     def __init__(self, job: Job, box: Array, depth: Index, until: float) -> None:
         began, claim = perf_counter(), job.claim
         self.job, self.finished, self._seconds = job, False, 0.0
-        reach = Reach(claim.arm, ROWS[claim.task], claim.locked, claim.limits, claim.rotation, claim.angle)
+        reach = Reach(claim.arm, claim.task, claim.locked, claim.limits, claim.rotation, claim.angle)
         seed = job.seed if not job.cut else [job.seed, job.number, *job.cut]
         self._search = Search(reach, box, job.halvings - depth, seed, until)
         self._cells, self._cut = 0.0 if job.cut else self._search.pool.cells, tuple[int, ...]()

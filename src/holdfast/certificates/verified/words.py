@@ -30,8 +30,12 @@ def sentence(document: dict[str, Any]) -> str:
         text = f"For every configuration with {spans(names, document['joint_box'])}, {least}"
         return f"{text}; angles in rad, arm {document['arm_digest'][:12]}."
     target = document["target"]
-    axes = [{"R": "roll", "P": "pitch", "Y": "yaw"}.get(axis, axis) for axis in target["axes"]]
-    turned = f" and the rotation {[real(x) for x in target['orientation']]}" if target["orientation"] else ""
+    axes = [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in target["axes"]]
+    turned, given = "", [real(x) for x in target["orientation"] or ()]
+    if given:
+        turned = (
+            f" and the tool's z axis along {given[2::3]}" if document["task"] == "pointing" else f" and the rotation {given}"
+        )
     turned += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
     text = f"For every {document['task']} target with {spans(axes, target['box'])}{turned}"
     kept = f"a configuration within the limits ({spans(names, document['limits'])})"

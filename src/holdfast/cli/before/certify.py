@@ -20,6 +20,7 @@ from holdfast.cli.certify_options import (
     JointHalvingsOption,
     LimitOption,
     LockOption,
+    PointingOption,
     RotationOption,
     RowsOption,
     SizeOption,
@@ -62,6 +63,7 @@ def reach(
     size: SizeOption,
     rotation: RotationOption = None,
     rotation_size: TurnsOption = None,
+    pointing: PointingOption = False,
     lock: LockOption = None,
     limit: LimitOption = None,
     degrees: AnglesOption = False,
@@ -90,7 +92,7 @@ def reach(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
-        **_turned(rotation, rotation_size, degrees),
+        **_turned(rotation, rotation_size, degrees, pointing),
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
@@ -103,6 +105,9 @@ def out_of_reach(
     arm: ArmArgument,
     box: BoxOption,
     size: SizeOption,
+    rotation: RotationOption = None,
+    rotation_size: TurnsOption = None,
+    pointing: PointingOption = False,
     lock: LockOption = None,
     limit: LimitOption = None,
     degrees: AnglesOption = False,
@@ -130,6 +135,7 @@ def out_of_reach(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
+        **_turned(rotation, rotation_size, degrees, pointing),
         locked=None if lock is None else _intervals(model, "--lock", [lock], degrees),
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
@@ -144,6 +150,7 @@ def tolerant(
     size: SizeOption,
     rotation: RotationOption = None,
     rotation_size: TurnsOption = None,
+    pointing: PointingOption = False,
     ranges: Annotated[
         Path | None,
         typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m.", show_default=False),
@@ -186,7 +193,7 @@ def tolerant(
         model,
         read_numbers("--box", box, "two or three numbers, m,"),
         read_numbers("--size", size, "one number, or one for each axis, m,"),
-        **_turned(rotation, rotation_size, degrees),
+        **_turned(rotation, rotation_size, degrees, pointing),
         working_ranges=_intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )
@@ -326,23 +333,25 @@ def structural_zero(
     printed(hf.check_certificate(file) if check else proof, json_, [file])
 
 
-def _turned(rotation: str | None, size: str | None, degrees: bool) -> dict[str, Any]:
-    """--rotation and --rotation-size, as a claim takes them."""
+def _turned(rotation: str | None, size: str | None, degrees: bool, pointing: bool) -> dict[str, Any]:
+    """--rotation, --rotation-size and --pointing, as a claim takes them."""
     from holdfast.arm.urdf import rpy_rotation
 
     if rotation is None:
-        if size is not None:
-            raise InputError("--rotation-size is the box around --rotation; give that, too")
+        if size is not None or pointing:
+            raise InputError("--rotation-size is the box around --rotation, --pointing about its z axis; give that, too")
         return {}
-    angles, edges = (
-        read_numbers(*option, "roll, pitch and yaw") for option in (("--rotation", rotation), ("--rotation-size", size or "0"))
-    )
-    if angles.size != 3 or edges.size not in (1, 3) or not (edges >= 0).all():
-        raise InputError("--rotation takes roll, pitch and yaw; --rotation-size one number or three, not negative")
-    turn = np.pi / 180 if degrees else 1.0
-    if not edges.any():
-        return {"rotation": rpy_rotation((turn * angles).tolist())}
-    return {"rpy": turn * np.column_stack([angles - edges / 2, angles + edges / 2])}
+    angles = read_numbers("--rotation", rotation, "roll, pitch and yaw")
+    edges = read_numbers("--rotation-size", size or "0", "one number, or three,")
+    if angles.size not in (1, 3) or edges.size not in (1, angles.size) or not (edges >= 0).all():
+        raise InputError(
+            "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
+        )
+    turn, task = np.pi / 180 if degrees else 1.0, {"task": "pointing"} if pointing else {}
+    if angles.size == 3 and not edges.any():
+        return {"rotation": rpy_rotation((turn * angles).tolist()), **task}
+    ends = turn * np.column_stack([angles - edges / 2, angles + edges / 2])
+    return {"rpy": ends if angles.size == 3 else ends[0], **task}
 
 
 def _ranges_of(file: Path) -> list[str]:

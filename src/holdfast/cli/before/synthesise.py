@@ -36,8 +36,15 @@ def command(
 
     Example: holdfast synthesise jacobian.csv --task position --out arms
     """
-    given = {"null_space" if null_space else "jacobian": matrix(file)}
-    made = hf.designs.synthesise(task=task, failures=failures, starts=starts, seed=seed, **given)
+    given = matrix(file)
+    made = hf.designs.synthesise(
+        jacobian=None if null_space else given,
+        null_space=given if null_space else None,
+        task=task,
+        failures=failures,
+        starts=starts,
+        seed=seed,
+    )
     if judge and task != "pose":
         raise InputError("orders are judged for poses; leave --judge out")
     folder = Path() if out is None else output.made(out)

@@ -120,6 +120,14 @@ def command(
         Path | None,
         typer.Option("--out", help="Folder for report.html, recovery.json, waypoints.csv and pictures.", show_default=False),
     ] = None,
+    certificate: Annotated[
+        Path | None,
+        typer.Option(
+            "--certificate",
+            help="Write the proof that the goal has no configuration to this file, for holdfast certificate check.",
+            show_default=False,
+        ),
+    ] = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.", show_default=False)] = None,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -181,6 +189,8 @@ def command(
         seed=seed,
     )
     files = [result.to_csv(csv)] if csv is not None and len(result.q) else []
+    if certificate is not None and not result.ok:
+        files.append(result.certificate().write(certificate))
     if out is not None:
         files += result.save(out, command=said())
     printed(result, json_, files)

@@ -79,10 +79,10 @@ def confined(space: Space, start: Array, known: Array) -> Iterator[Flood]:
         return
     blocked, joints = _Blocked(space), np.flatnonzero(space.free)
     itself, first = blocked.itself, joints[:_FEW]
-    tried: list[tuple[Indices, Blocked]] = (
-        [] if itself is None else [(some, itself.by_itself) for some in _between_links(space.clearance, joints)]
-    )
-    for some, what in [*tried, (first, blocked.moved_by(first))]:
+    tried: list[tuple[Indices, Blocked]] = [(first, blocked.moved_by(first))]
+    if itself is not None:
+        tried = [(some, itself.by_itself) for some in _between_links(space.clearance, joints)] + tried
+    for some, what in tried:
         floods = _floods(space, start, some, what, _MOST_CONFINED)
         yield from islice((flood for flood in floods if flood.misses(known, np.zeros_like(known)).all()), _TRIED)
 
@@ -149,7 +149,7 @@ class Flood:
         for corner in product((0, 1), repeat=len(self.joints)):
             sign = (-1) ** (len(corner) - sum(corner))
             total += sign * self._below[tuple(np.where(corner, last, first).T)]
-        return total == 0
+        return np.asarray(total == 0)
 
 
 def _floods(space: Space, start: Array, joints: Indices, blocked: Blocked, most: int | None = None) -> Iterator[Flood]:
