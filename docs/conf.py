@@ -51,7 +51,10 @@ nitpick_ignore_regex = [
     (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
     # What a run keeps so that it can be run again.
-    (r"py:class", r"_?Motion|Setting|RestSystem|React|Ended|holdfast\.endurance\.problem\.Problem"),
+    (
+        r"py:class",
+        r"_?Motion|Setting|RestSystem|React|Ended|holdfast\.simulation\.closed_loop\.Locking|holdfast\.endurance\.problem\.Problem",
+    ),
     (r"py:class", r"holdfast\.control\.export\._Law"),
     (r"py:class", r"holdfast\.certificates\.proof\.(Halved|InParts)"),
     (

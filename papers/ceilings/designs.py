@@ -25,8 +25,9 @@ def table() -> list[str]:
             again = hf.tolerant_workspace(found.arm(), "planar", found.limits).size
             lines.append(f"| {what} | {seed} | {found.value:.5f} m² | {again:.4g} m² | {found.bound:.5f} | {took:.0f} |")
     for task, name in (("position", "self-motion-position-4R-001"), ("pose", "self-motion-pose-7R-001")):
-        arm = hf.designs.record(name).arm
-        assert arm is not None
+        recorded = hf.designs.record(name).arm
+        assert recorded is not None
+        arm = recorded
         bounds = {f"{kind}{k + 1}": (-w, w) for k in range(arm.n) for kind, w in (("a", 1.2), ("alpha", 5.0), ("d", 1.0))}
         for seed in SEEDS:
             start = process_time()

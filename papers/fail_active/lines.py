@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +58,7 @@ def one_line(quick: bool) -> Part:
     grids = [(26, 0.1), (51, 0.05)] if quick else [(51, 0.1), (101, 0.05), (201, 0.025)]
     rows, found = [], {}
     for samples, spacing in grids:
-        compare = ["least-norm", index] if (samples, spacing) == grids[-2] else []
+        compare: list[Any] = ["least-norm", index] if (samples, spacing) == grids[-2] else []
         found[samples] = best = hf.endure(arm, path, samples=samples, spacing=spacing, compare=compare)
         assert best.interval is not None
         low, high = best.interval
@@ -129,7 +130,8 @@ def many_lines(quick: bool) -> Part:
     """E2."""
     arm = hf.arms.load("panda")
     index = hf.indices.relative_manipulability(arm)
-    generator, found, without, inside, alike, away = np.random.default_rng(16), [], 0, 0, [], []
+    found: list[Any] = []
+    generator, without, inside, alike, away = np.random.default_rng(16), 0, 0, [], []
     samples, spacing, wanted = (26, 0.1, 3) if quick else (101, 0.05, LINES)
     names: list[str] = []
     while len(found) < wanted:

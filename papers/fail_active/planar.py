@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -59,7 +60,8 @@ def _guaranteed(machine: hf.Arm, points: np.ndarray) -> bool:
 
 def more_redundancy(quick: bool) -> Part:
     """Two degrees of redundancy, where the survival is a lower bound: how far below the truth about the same motion?"""
-    generator, samples, rows = np.random.default_rng(4), 15, []
+    generator, samples = np.random.default_rng(4), 15
+    rows: list[Any] = []
     while len(rows) < (2 if quick else FOUR):
         middle, width = generator.uniform(-0.5, 0.5, 4), generator.uniform(0.6, 1.3, 4)
         low, high = middle - width, middle + width

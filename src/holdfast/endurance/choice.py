@@ -124,7 +124,7 @@ def _moves(arm: Arm, b: Nodes, a: Nodes, limit: Array, extra: float) -> Moves:
     else:
         from scipy.spatial import KDTree
 
-        most = _short(a, KDTree(b.flat).query(a.flat)[0], limit)
+        most = _short(a, np.asarray(KDTree(b.flat).query(a.flat)[0]), limit)
         to, source = _within(arm, b.q, a.q, np.where(np.isfinite(limit), limit + extra, np.pi / 2 * most))
         far, beyond = ((b.flat[to] - a.flat[source]) ** 2).sum(axis=1), _beyond(arm, b.q[to], a.q[source], limit)
     some = (beyond <= extra) & (far <= most**2)

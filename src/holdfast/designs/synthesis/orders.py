@@ -134,7 +134,7 @@ def judge_orders(
         value = values(order, q)
         counts[d], mean[d] = [(value >= h).sum() for h in thresholds], value.mean()
     lengths = _between(w, o)[orders[:, :-1], orders[:, 1:]].sum(axis=1)
-    first = _front(lengths, counts[:, -2])
+    first = _front(lengths, counts[:, -2].astype(float))
     q = rng.uniform(-np.pi, np.pi, (_FRESH * samples, n))
     fresh = np.array([(values(orders[d], q) >= thresholds[-2]).mean() for d in first])
     kept = _front(lengths[first], fresh)
@@ -193,7 +193,7 @@ def _between(w: Array, o: Array) -> Array:
     apart = o[None] - o[:, None]
     skew = abs((apart * normal).sum(axis=2)) / np.maximum(size, 1e-300)
     along = np.linalg.norm(np.cross(apart, w[:, None]), axis=2)
-    return np.where(size < _PARALLEL, along, skew)
+    return np.asarray(np.where(size < _PARALLEL, along, skew))
 
 
 def _front(lengths: Array, fractions: Array) -> NDArray[np.int64]:
