@@ -30,7 +30,7 @@ def command(
     arm: Annotated[
         Path | None, typer.Option("--arm", help="Write a revolute arm that attains the best known value.", show_default=False)
     ] = None,
-    lever: Annotated[
+    singular_value: Annotated[
         float | None,
         typer.Option(
             "--singular-value",
@@ -53,9 +53,10 @@ def command(
         return
     if joints is None or rows is None:
         raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
-    if lever is not None:
-        mixed = rows in ("pose", "pointing", "planar-pose")
-        printed(hf.ceilings.singular_value(n=joints, m=_rows(rows), k=failures, lever=lever, angular=mixed), json_)
+    if singular_value is not None:
+        mixed = rows in set(TASKS) - {"position", "planar"}  # lengths and angles
+        m = _rows(rows)
+        printed(hf.ceilings.singular_value(n=joints, m=m, k=failures, lever=singular_value, angular=mixed), json_)
         return
     found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
     if arm is not None:

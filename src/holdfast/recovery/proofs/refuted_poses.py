@@ -11,11 +11,11 @@ from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.prover import certify
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
+from holdfast.grammar import TASKS
 
 Array = NDArray[np.float64]
 
 _FINEST = 20  # halvings of each joint: a single pose may be near to one that is reached
-TASKS = ("pose", "pointing", "position", "planar", "planar-pose")
 
 
 def refuted_pose(degraded: Degraded, task: Task, pose: Array, time_limit: float | None) -> Refutation:
@@ -34,7 +34,7 @@ def refuted_pose(degraded: Degraded, task: Task, pose: Array, time_limit: float 
             arm,
             pose[: 2 if flat else 3, 3],
             0.0,
-            rotation=pose[:3, :3] if task.name in ("pose", "pointing") else None,
+            rotation=pose[:3, :3] if task.m > 3 else None,
             rpy=(yaw, yaw) if task.name == "planar-pose" else None,
             task="pointing" if task.name == "pointing" else None,
             limits=dict(enumerate(zip(degraded.lo.tolist(), degraded.hi.tolist(), strict=True))),
