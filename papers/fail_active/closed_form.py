@@ -60,7 +60,7 @@ def _case(arm: hf.Arm, closed: Any, to_tip: Array, clear: hf.Clearance, case: di
         return [verdict.answer]
     kind = f"proved ({verdict.kind})"
     for count in POSES:
-        poses = path.pose(np.linspace(*path.bounds[[0, -1]], count))
+        poses = path.pose(np.linspace(path.bounds[0], path.bounds[-1], count))
         if not all(_exists(closed, pose @ to_tip, degraded, clear) for pose in poses[::-1]):
             return [kind, f"{kind}: a pose has none by ssik"]
     return [kind, f"{kind}: ssik has one at each of {POSES[-1]} poses"]
