@@ -30,6 +30,10 @@ _MADE: list[str] = []
 # Every kind of page is drawn in these.
 PAGES = ("tests/report/", "tests/present/", "tests/assessment/", "tests/teleop/test_analysis.py", "tests/test_papers")
 _LAID_OUT = [True]
+# Solvers that are kept for an arm. Built-in arms are the same objects in every test, so one that was made on CasADi's machine
+# would serve later tests too, and differ in the last bits from what these compile.
+_KEPT = {"solvers.inverse_kinematics": "_solver", "solvers.self_motions": "_tracer", "reach.extrema": "_critical"}
+_INTERPRETED = [False]
 
 
 def pytest_addoption(parser):
@@ -63,7 +67,16 @@ def pytest_configure(config):
 def pytest_runtest_protocol(item):
     # Matplotlib takes as long to lay a figure out as to draw it; where pages are not the subject nobody looks at the layout.
     _LAID_OUT[:] = [item.nodeid.startswith(PAGES) and item.get_closest_marker("rough") is None]
+    if _INTERPRETED[0] and item.get_closest_marker("interpreted") is None and "HOLDFAST_BACKEND" not in os.environ:
+        _forget_kept_solvers()
     return (yield)
+
+
+def _forget_kept_solvers() -> None:
+    _INTERPRETED[:] = [False]
+    for module, name in _KEPT.items():
+        if (found := sys.modules.get(f"holdfast.{module}")) is not None:
+            getattr(found, name).cache_clear()
 
 
 def _lay_out_where_pages_are_the_subject() -> None:
@@ -84,7 +97,10 @@ def pytest_runtest_call(item):
     with pytest.MonkeyPatch.context() as patch:
         if item.get_closest_marker("interpreted") and not os.environ.get("HOLDFAST_COMPILED"):
             patch.setenv("HOLDFAST_BACKEND", "casadi")
-        return (yield)
+        try:
+            return (yield)
+        finally:
+            _INTERPRETED[0] |= "HOLDFAST_BACKEND" in os.environ
 
 
 def pytest_unconfigure(config):
