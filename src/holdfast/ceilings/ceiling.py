@@ -122,8 +122,7 @@ class Ceiling(Result):
 
     def describe(self) -> list[str]:
         """What is proven and what is known."""
-        locks = "any one joint locks" if self.k == 1 else f"any {self.k} joints lock at once"
-        head = f"{self.n} joints, a task of {_rows(self.m)}: when {locks}"
+        head = f"{self.n} joints, a task of {rows_of(self.m)}: when {when(self.k)}"
         proof = " and ".join(f"{name}, {THEOREMS[name]}" for name in self.bound_by.replace(" with ", " and ").split(" and "))
         if self.attained:
             return [f"{head}, the ceiling is {self.bound:.10g}: proven, and attained ({proof})"]
@@ -183,12 +182,12 @@ def look_up(*, n: int, m: int, k: int = 1) -> Ceiling:
     if n > _MOST:
         raise InputError(f"{n} joints are more than the {_MOST} that ceilings are computed for")
     if n <= m:
-        raise InputError(f"{n} joints for {_rows(m)} of the task: there is no redundancy, nothing can be lost")
+        raise InputError(f"{n} joints for {rows_of(m)} of the task: there is no redundancy, nothing can be lost")
     if k < 1:
         raise InputError(f"k is {k}; at least one joint must fail")
     if k > n - m:
         raise InputError(
-            f"after {k} failures the task has {n - k} joints for {_rows(m)}: the ceiling is 0; give k of at most {n - m}"
+            f"after {k} failures the task has {n - k} joints for {rows_of(m)}: the ceiling is 0; give k of at most {n - m}"
         )
     bound: Bound = proven(int(n), int(m), int(k))
     return Ceiling(n=int(n), m=int(m), k=int(k), bound=bound.value, bound_by=bound.by)
@@ -263,5 +262,11 @@ def _best_null_space(n: int, m: int, k: int) -> Array | None:
     return None if rows is None else np.array(rows)
 
 
-def _rows(m: int) -> str:
+def when(k: int) -> str:
+    """Any one joint locks, or several."""
+    return "any one joint locks" if k == 1 else f"any {k} joints lock at once"
+
+
+def rows_of(m: int) -> str:
+    """How many, in words."""
     return "1 row" if m == 1 else f"{m} rows"

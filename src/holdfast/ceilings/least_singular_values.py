@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.ceilings.ceiling import at_once, look_up
+from holdfast.ceilings.ceiling import OfArm, OfFailures, OfTask, at_once, look_up, rows_of, when
 from holdfast.ceilings.frames import equal_rows
 from holdfast.errors import InputError
 from holdfast.result import Result
@@ -46,12 +46,8 @@ class OfJoint(Protocol):
         """Limit, rad or m."""
 
 
-class OfArm(Protocol):
+class JointedArm(OfArm, Protocol):
     """What bounds the levers: an index's arm."""
-
-    @property
-    def n(self) -> int:
-        """Joints."""
 
     @property
     def joints(self) -> Sequence[OfJoint]:
@@ -62,12 +58,8 @@ class OfArm(Protocol):
         """(4, 4) of the tool in the last joint's frame, m."""
 
 
-class OfTask(Protocol):
+class RowsOfTask(OfTask, Protocol):
     """What says the unit: an index's task."""
-
-    @property
-    def m(self) -> int:
-        """Rows."""
 
     @property
     def rows(self) -> Array:
@@ -78,20 +70,16 @@ class OfTask(Protocol):
         """Characteristic length, m."""
 
 
-class OfSingularValue(Protocol):
+class OfSingularValue(OfFailures, Protocol):
     """What a ceiling of the least singular value is asked for: an index with its arm, its task and its failures."""
 
     @property
-    def arm(self) -> OfArm:
+    def arm(self) -> JointedArm:
         """Its arm."""
 
     @property
-    def task(self) -> OfTask:
+    def task(self) -> RowsOfTask:
         """Its task."""
-
-    @property
-    def failures(self) -> tuple[tuple[int, ...], ...]:
-        """Sets of joints that fail together."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -124,13 +112,11 @@ class SingularValueCeiling(Result):
 
     def describe(self) -> list[str]:
         """The bound, why, and what it supposes."""
-        locks = "any one joint locks" if self.k == 1 else f"any {self.k} joints lock at once"
-        rows = "1 row" if self.m == 1 else f"{self.m} rows"
         unit = " in characteristic lengths" if self.angular else ""
         lengths = "any lengths" if self.lever == inf else f"mean lever of the joints {self.lever:.4g}{unit or ' m'}"
         why = f"{self.bound_by}, {REASONS[self.bound_by]}{', attained' if self.jacobian is not None else ''}"
         return [
-            f"{self.n} joints, a task of {rows}, {lengths}: when {locks}, no least singular value is above "
+            f"{self.n} joints, a task of {rows_of(self.m)}, {lengths}: when {when(self.k)}, no least singular value is above "
             f"{self.bound:.6g} ({why})"
         ]
 
