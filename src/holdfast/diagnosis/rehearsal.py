@@ -15,7 +15,7 @@ from holdfast.faults.events import FaultEvent
 from holdfast.faults.injector import FaultInjector
 from holdfast.faults.log import Log
 from holdfast.notice import each, says
-from holdfast.physics.model import mujoco_spec
+from holdfast.physics.body import spread, with_motors
 from holdfast.physics.servos import Servos
 
 Array = NDArray[np.float64]
@@ -77,19 +77,8 @@ def rehearse(
     reference = _swinging(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
     count = len(reference)
     t = np.arange(count, dtype=np.float64) * _STEP
-    spec = mujoco_spec(arm, np.zeros(n), range(n), step=_STEP)
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    for joint in arm.joints:
-        motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-        if np.isfinite(joint.effort):
-            motor.forcelimited, motor.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
-    model = spec.compile()
-    off = np.random.default_rng([1, seed if body is None else body])
-    model.body_mass[1:] *= (scale := 1 + off.uniform(-mismatch, mismatch, model.nbody - 1))
-    model.body_inertia[1:] *= scale[:, None]
-    model.dof_frictionloss[:] = coulomb * (1 + off.uniform(-mismatch, mismatch, n))
-    model.dof_damping[:] = viscous * (1 + off.uniform(-mismatch, mismatch, n))
-    model.dof_armature[:] = [joint.armature or _ROTOR for joint in arm.joints]
+    model = with_motors(arm, step=_STEP, rotor=_ROTOR)
+    spread(model, seed if body is None else body, mismatch=mismatch, coulomb=coulomb, viscous=viscous)
     data = mujoco.MjData(model)
     stiffness, damping = Servos(step=_STEP).gains(arm, mujoco, model, start=np.zeros(n))
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _STEP

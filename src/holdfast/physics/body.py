@@ -69,21 +69,9 @@ class Body:
             ArmError: Inertial data are missing or impossible, or a joint carries no mass.
             HoldfastError: MuJoCo is not installed.
         """
-        mujoco, n = import_mujoco(), arm.n
-        spec = mujoco_spec(arm, np.zeros(n), range(n), step=1 / (servos.rate * servos.substeps))
-        spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-        for joint in arm.joints:
-            motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-            if np.isfinite(joint.effort):
-                motor.forcelimited, motor.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
-        model = spec.compile()
-        model.dof_armature[:] = [joint.armature or self.rotor for joint in arm.joints]
-        stiffness, damping = servos.gains(arm, mujoco, model, start=np.zeros(n))
-        off = np.random.default_rng([1, self.seed])
-        model.body_mass[1:] *= (scale := 1 + off.uniform(-self.mismatch, self.mismatch, model.nbody - 1))
-        model.body_inertia[1:] *= scale[:, None]
-        model.dof_frictionloss[:] = self.coulomb * (1 + off.uniform(-self.mismatch, self.mismatch, n))
-        model.dof_damping[:] = self.viscous * (1 + off.uniform(-self.mismatch, self.mismatch, n))
+        model = with_motors(arm, step=1 / (servos.rate * servos.substeps), rotor=self.rotor)
+        stiffness, damping = servos.gains(arm, import_mujoco(), model, start=np.zeros(arm.n))
+        spread(model, self.seed, mismatch=self.mismatch, coulomb=self.coulomb, viscous=self.viscous)
         return model, stiffness, damping
 
     def measured(self, poses: Array, rng: np.random.Generator) -> Array:
@@ -95,3 +83,36 @@ class Body:
         turned = Rotation.from_rotvec(rng.normal(0, self.angle, (len(poses), 3)))
         told[:, :3, :3] = turned.as_matrix() @ poses[:, :3, :3]
         return told
+
+
+def with_motors(arm: Arm, *, step: float, rotor: float) -> Any:
+    """The ``mujoco.MjModel`` of an arm with a motor, whose control is its torque, at every joint; ``qpos`` counts from 0.
+
+    Args:
+        arm: With inertial data.
+        step: Of the simulation, s.
+        rotor: Rotor inertia of joints whose model states none, kg m^2 and kg.
+
+    Raises:
+        ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+        HoldfastError: MuJoCo is not installed.
+    """
+    mujoco = import_mujoco()
+    spec = mujoco_spec(arm, np.zeros(arm.n), range(arm.n), step=step)
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    for joint in arm.joints:
+        motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        if np.isfinite(joint.effort):
+            motor.forcelimited, motor.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
+    model = spec.compile()
+    model.dof_armature[:] = [joint.armature or rotor for joint in arm.joints]
+    return model
+
+
+def spread(model: Any, seed: int, *, mismatch: float, coulomb: float, viscous: float) -> None:
+    """Give a model masses and friction that are off, as :class:`Body` has them: the same for the same seed."""
+    off = np.random.default_rng([1, seed])
+    model.body_mass[1:] *= (scale := 1 + off.uniform(-mismatch, mismatch, model.nbody - 1))
+    model.body_inertia[1:] *= scale[:, None]
+    model.dof_frictionloss[:] = coulomb * (1 + off.uniform(-mismatch, mismatch, model.nv))
+    model.dof_damping[:] = viscous * (1 + off.uniform(-mismatch, mismatch, model.nv))
