@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ReachClaim
+from holdfast.certificates.crew import Stop
 from holdfast.certificates.target_boxes.search import Search
 from holdfast.certificates.taylor import Reach
 from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, undecided
@@ -23,7 +24,6 @@ from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Stop = Callable[[], bool]
 
 _LARGE, _JOB = 1 << 16, 1 << 14  # cells: of a part that is cut, and of each job of it
 

@@ -17,7 +17,7 @@ from .balls import UP, Balls, crossed, flint, length, stacked, times
 from .boxes import Boxes, bent
 from .chain import Array, Moved
 from .forms import UNIT, need, real
-from .rows import Rows, place
+from .rows import Rows, point_derivatives
 from .targets import Leaves
 from .tree import Cell
 
@@ -74,7 +74,7 @@ class Apart(Boxes):
         """
         joints = half.shape[1]
         back = np.broadcast_to(-np.eye(3), (len(half), 3, 3))
-        columns, twice = place(moved.spin, moved.columns)
+        columns, twice = point_derivatives(moved.spin, moved.columns)
         whole = Balls(np.concatenate([columns.at, back], axis=2), np.concatenate([columns.off, 0 * back], axis=2))
         bend, second = times("na,najk->njk", v, twice), times("naj,nak->njk", whole, whole)
         second.off = second.off.copy()
@@ -90,7 +90,7 @@ class Apart(Boxes):
     def span(self, moved: Moved, away: Balls, lengths: Array, half: Array, wide: Array) -> tuple[Array, Array]:
         """Below and above the distance of a point of a link, ``away`` (N, 3) from what is within ``wide`` of a place."""
         third = (np.cumsum(half, axis=1) ** 3 * lengths).sum(axis=1) / 6
-        near = self.nearest((away, *place(moved.spin, moved.columns)), (third, np.zeros(len(third))), half, wide)
+        near = self.nearest((away, *point_derivatives(moved.spin, moved.columns)), (third, np.zeros(len(third))), half, wide)
         return near, self.farthest(away, moved, lengths, half, wide)
 
     def excluded(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:

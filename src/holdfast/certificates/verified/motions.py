@@ -20,15 +20,16 @@ by: its place, and the axial part of its rotation, which below half a turn says 
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .balls import LEAST, UP, Balls, above, crossed, defect, either, flint, joined, stacked, times
+from .balls import LEAST, UP, Balls, above, crossed, either, flint, joined, stacked, times
+from .chain import Chain
 from .forms import real
 from .paths import ROWS, SEGMENT, UNIT, Ints, Slab
+from .rows import mirrored, point_derivatives, under
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -43,23 +44,15 @@ class Faults:
     def __init__(self, document: dict[str, Any]) -> None:
         self._given, self.n = {key: value for key, value in document.items() if key != "locks"}, len(document["arm"]["joints"])
         self._given["locks"] = [lock | {"cells": "", "centres": ""} for lock in document["locks"]]
-        self.rows, frames = ROWS[document["task"]], [*document["arm"]["joints"], document["arm"]["tool"]]
+        self.rows = ROWS[document["task"]]
         self.m, self.linear = len(self.rows), min(3, len(self.rows))
-        self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
-        numbers = [frame["rotation"] for frame in frames]
-        self.turns = [Balls(np.reshape([real(x) for x in given], (3, 3)), defect(given)) for given in numbers]
+        chain = Chain(document["arm"], flat=False)
+        self.origins, self.turns, self.lengths = chain.origins, chain.turns, chain.lengths(0, self.n)
         self.knots = np.array([[real(x) for x in knot] for knot in document["knots"]])
         self.limits = np.array([[real(x) for x in pair] for pair in document["limits"]])
         metres, radians = (real(x) for x in document["tube"])
         self.tube = np.array([metres] * self.linear + [radians] * (self.m - self.linear)) if metres or radians else np.empty(0)
         self.still = [[lock["joint"], *lock["followers"]] for lock in document["locks"]]
-        # What joints 1 to k turn and joint k + 1 does not: the part of link k across its axis, and that of the next along it.
-        self.lengths = np.zeros(self.n)
-        for k in range(self.n):
-            whole = Balls(self.origins[k + 1] * [1, 1, 0])
-            if k + 1 < self.n:
-                whole += times("ij,j->i", self.turns[k + 1], Balls(self.origins[k + 2] * [0, 0, 1]))
-            self.lengths[k] = math.hypot(*whole.size) * UP
 
     def __reduce__(self) -> tuple[Any, ...]:  # to another process
         return Faults, (self._given,)
@@ -100,10 +93,10 @@ class Faults:
 
     def expanded(self, q: Balls, healthy: Balls) -> tuple[Balls, Balls, Balls]:
         """Error (N, m), its derivatives (N, m, 2n) by joints of the arm, then of the healthy one backwards, and second ones."""
-        n, (tip, turn, z, columns) = self.n, self.moved(q)
+        tip, turn, z, columns = self.moved(q)
         goal, wanted, axes, slopes = self.moved(healthy)
         error, first = tip + -goal, _beside(columns, -slopes[:, ::-1])
-        second = _blocks(_pairs(z, columns), -_pairs(axes, slopes)[:, :, ::-1, ::-1])
+        second = _blocks(point_derivatives(z, columns)[1], -point_derivatives(axes, slopes)[1][:, :, ::-1, ::-1])
         if self.m > 3:
             off = times("nij,nkj->nik", turn, wanted)
             back = -times("nij,nkj->nki", off, axes)[:, ::-1]
@@ -111,12 +104,11 @@ class Faults:
             vee = stacked([(off[:, 2, 1] + -off[:, 1, 2]), off[:, 0, 2] + -off[:, 2, 0], off[:, 1, 0] + -off[:, 0, 1]], 1)
             straight = np.trace(off.at, axis1=1, axis2=2) - np.trace(off.off, axis1=1, axis2=2) > 2.9
             error = joined(error, Balls(np.where(straight[:, None], vee.at / 2, np.nan), vee.off / 2))
-            first = _under(first, times("nri,nji->nrj", _axial(off[:, None])[:, 0], every))
+            first = under(first, times("nri,nji->nrj", _axial(off[:, None])[:, 0], every))
             # The second derivative by a and a later b is vee [a][b] E.
             later = _axial(times("nkij,njl->nkil", crossed(every), off))
             twice = times("nkri,nji->nrjk", later, every)
-            upper = np.triu(np.ones((2 * n, 2 * n)))
-            second = _under(second, _mirrored(twice, upper))
+            second = under(second, mirrored(twice))
         return error[:, : self.m], first[:, : self.m], second[:, : self.m]
 
     def section(self, slope: Array, rates: tuple[Balls, Balls], still: list[int], turned: Flags) -> tuple[Balls, Balls]:
@@ -296,19 +288,6 @@ def _before(x: Balls) -> Balls:
     return Balls(np.roll(x.at, 1, axis=0), np.roll(x.off, 1, axis=0))
 
 
-def _pairs(z: Balls, columns: Balls) -> Balls:
-    """(N, 3, n, n) second derivatives of a place: z_j x J_k for j up to k."""
-    made = times("njri,nki->nrjk", crossed(z), columns)
-    return _mirrored(made, np.triu(np.ones(made.at.shape[-2:])))
-
-
-def _mirrored(made: Balls, upper: Array) -> Balls:
-    """With what is above the diagonal below it as well."""
-    half = made.signed(upper)
-    lower = half.transposed(0, 1, 3, 2).signed(np.tril(np.ones_like(upper), -1))
-    return Balls(half.at + lower.at, half.off + lower.off)
-
-
 def _blocks(a: Balls, b: Balls) -> Balls:
     """Two blocks on the diagonal."""
     n = a.at.shape[-1]
@@ -322,11 +301,6 @@ def _beside(a: Balls, b: Balls) -> Balls:
     """(N, 3, 2n) of columns (N, n, 3) of both."""
     at, off = (np.concatenate([x, y], axis=1).transpose(0, 2, 1) for x, y in ((a.at, b.at), (a.off, b.off)))
     return Balls(at, off)
-
-
-def _under(a: Balls, b: Balls) -> Balls:
-    """Rows after rows."""
-    return Balls(np.concatenate([a.at, b.at], axis=1), np.concatenate([a.off, b.off], axis=1))
 
 
 def _axial(x: Balls) -> Balls:

@@ -56,7 +56,7 @@ class Rows:
         error = moved.tip[:, : self.linear] + middle
         moves = Balls(np.concatenate([moved.columns.at, none], 1), np.concatenate([moved.columns.off, none], 1))
         spin = Balls(np.concatenate([moved.spin.at, none], 1), np.concatenate([moved.spin.off, none], 1))
-        slopes, second = (x[:, : self.linear] for x in place(spin, moves))
+        slopes, second = (x[:, : self.linear] for x in point_derivatives(spin, moves))
         if self.rotated:
             off, axes = self._left(moved.turn, target[self.linear :], count)
             spin = Balls(np.concatenate([moved.spin.at, axes.at], 1), np.concatenate([moved.spin.off, axes.off], 1))
@@ -65,7 +65,7 @@ class Rows:
             first = times("nrl,nal->nra", _axial(times("rij,nkj->nrik", self._weights, off)), spin)
             later = times("nbik,nkj->nbij", crossed(spin), off)
             twice = times("nrbl,nal->nrab", _axial(times("rij,nbkj->nrbik", self._weights, later)), spin)
-            error, slopes, second = joined(error, value), _under(slopes, first), _under(second, _mirrored(twice))
+            error, slopes, second = joined(error, value), under(slopes, first), under(second, mirrored(twice))
         return error, slopes, second
 
     def _left(self, turn: Balls, angles: list[Array], count: int) -> tuple[Balls, Balls]:
@@ -81,12 +81,12 @@ class Rows:
         return off, -times("nij,naj->nai", off, stacked([both[:, :, 0], yaw[:, :, 1], fixed], 1))
 
 
-def place(spin: Balls, columns: Balls) -> tuple[Balls, Balls]:
+def point_derivatives(spin: Balls, columns: Balls) -> tuple[Balls, Balls]:
     """Slopes (N, 3, V) of a point, and its second derivatives (N, 3, V, V): z_a x J_b by a and a later b."""
-    return columns.transposed(0, 2, 1), _mirrored(times("nari,nbi->nrab", crossed(spin), columns))
+    return columns.transposed(0, 2, 1), mirrored(times("nari,nbi->nrab", crossed(spin), columns))
 
 
-def _mirrored(made: Balls) -> Balls:
+def mirrored(made: Balls) -> Balls:
     """With what is above the diagonal below it as well."""
     upper = np.triu(np.ones(made.at.shape[-2:]))
     half, below = made.signed(upper), made.signed(np.triu(upper, 1)).transposed(0, 1, 3, 2)
@@ -98,6 +98,6 @@ def _axial(x: Balls) -> Balls:
     return stacked([x[..., 2, 1] + -x[..., 1, 2], x[..., 0, 2] + -x[..., 2, 0], x[..., 1, 0] + -x[..., 0, 1]], -1)
 
 
-def _under(a: Balls, b: Balls) -> Balls:
+def under(a: Balls, b: Balls) -> Balls:
     """Rows after rows."""
     return Balls(np.concatenate([a.at, b.at], axis=1), np.concatenate([a.off, b.off], axis=1))
