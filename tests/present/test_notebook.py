@@ -137,7 +137,6 @@ WITHOUT_FIGURE |= {
     "Ceiling",
     "CeilingSearch",
     "CeilingTable",
-    "EvolvedDesign",
     "SingularValueCeiling",
     "FaultBatch",
     "Orders",

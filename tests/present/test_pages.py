@@ -33,7 +33,7 @@ PARTS = {
     "WaypointCheck",
 }  # of a result, without a command that writes their page
 PARTS |= {"Book", "Ceiling", "CeilingSearch", "CeilingTable", "FaultBatch", "Orders", "Record", "RecordCheck", "Synthesis"}
-PARTS |= {"EvolvedDesign", "SingularValueCeiling"}
+PARTS |= {"SingularValueCeiling"}
 NAMES = [e.name for kind in (Ending, Outcome, Reason, Status) for e in kind if "_" in e.name or e.name in ("HOME", "CONVERGED")]
 
 

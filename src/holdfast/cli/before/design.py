@@ -25,7 +25,7 @@ from holdfast.cli.options import (
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.assess import read_region
 from holdfast.errors import InputError
-from holdfast.present.results import printed
+from holdfast.present.results import printed, said
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
@@ -116,4 +116,5 @@ def command(
             common |= {"level": level, "failures": read_failures(given, failures), "length": length}
             place = read_region(region, arm, given)
             found = hf.design(given, space, maximise, region=place, task=rows, poses=poses, fresh=fresh, **common)
-    printed(found, json_, [] if out is None else found.save(out), listed=True)
+    again = {"command": said()} if isinstance(found, hf.designs.EvolvedDesign) else {}  # others make theirs of what they store
+    printed(found, json_, [] if out is None else found.save(out, **again), listed=True)

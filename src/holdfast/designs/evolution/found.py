@@ -67,7 +67,7 @@ class EvolvedDesign(Result):
         """What it is worth, beside the given arm and what none can beat."""
         lines = [
             f"{self.objective}: {self.value:.6g} {self.unit}, the given arm {self.given:.4g}; no arm of these bounds has more "
-            f"than {self.bound:.6g}"
+            f"than {self.bound:.6g} {self.unit}"
         ]
         if self.q is not None and self.winding is not None:
             turns = ", ".join(f"{x:+d}" for x in self.winding)
