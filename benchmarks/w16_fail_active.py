@@ -1,11 +1,16 @@
 """W16, part F: degraded Pandas finish tasks with and without a cell, beside usual planners; proofs that they cannot.
 
-The suite is that of ``holdfast bench fail-active``. ``--suite FOLDER`` shows a run that was made before.
+The suite is that of ``holdfast bench fail-active``. ``--suite FOLDER`` shows a run that was made before; ``--before CHECKOUT``
+asks the ``recover`` of another checkout the same cases, in a process of its own.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import os
+import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -31,12 +36,15 @@ def suite(chosen: argparse.Namespace) -> str:
         planners = chosen.planner or PLANNERS
         panda = hf.arms.load("panda")
         found = [hf.bench.fail_active(panda, folder, cell=CELL, cases=cases, tasks=chosen.task, planners=planners)]
+        if chosen.before:
+            found.append(hf.bench.FailActive(hf.engine.Study.open(before(chosen, folder, cases))))
     lines = []
-    for s in (score for one in found for score in one.scores):
+    for k, s in ((k, score) for k, one in enumerate(found) for score in one.scores):
+        named = f"{s.method} of {chosen.before}" if chosen.before and k == 1 else s.method
         feasible, (middle, late) = s.success_of_feasible, np.quantile(s.processor, [0.5, 0.95])
         counts = (s.cases, s.solved, s.proved, s.within, s.argued, s.undecided, s.refused, s.contradictions)
         lines.append(
-            f"| {s.task}{', cell' * s.in_cell} | {s.method} | {' | '.join(map(str, counts))} | "
+            f"| {s.task}{', cell' * s.in_cell} | {named} | {' | '.join(map(str, counts))} | "
             f"{'' if feasible is None else feasible} | {middle:.2g} | {late:.2g} | {s.processor.max():.2g} |"
         )
     return (
@@ -47,6 +55,24 @@ def suite(chosen: argparse.Namespace) -> str:
         "| contradictions | solved of those not proved infeasible within | median, s | 95 %, s | longest, s |\n"
         "| --- | --- " + "| ---: " * 12 + "|\n" + "\n".join(lines) + "\n"
     )
+
+
+def before(chosen: argparse.Namespace, folder: str, cases: int) -> str:
+    """The folder of a suite that another checkout has run; its cases are those of ``folder``."""
+    other = tempfile.mkdtemp(prefix="fail-active-before-")
+    tasks = [word for task in chosen.task or () for word in ("--task", task)]
+    words = ["bench", "fail-active", "panda", "--cell", str(CELL), "--cases", str(cases), *tasks, "--planner", "recover"]
+    path = {"PYTHONPATH": str(Path(chosen.before).resolve() / "src")}
+    subprocess.run(
+        [sys.executable, "-m", "holdfast", *words, "--out", other],
+        env={**os.environ, **path},
+        stdout=subprocess.DEVNULL,
+        check=True,
+    )
+    digests = [{json.loads(line)["digest"] for line in (Path(x) / "cases.jsonl").open()} for x in (folder, other)]
+    if digests[0] != digests[1]:
+        sys.exit("the other checkout draws other cases")
+    return other
 
 
 def proofs(chosen: argparse.Namespace) -> str:
@@ -114,6 +140,7 @@ def newton(arm, task, pose, low, high, generator):  # type: ignore[no-untyped-de
 def main() -> None:
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--suite", action="append", help="folder of a suite that was run before; may be given again")
+    parser.add_argument("--before", metavar="CHECKOUT", help="another checkout, whose recover is asked the same cases")
     parser.add_argument("--cases", type=int, default=CASES, help="of each task that reaches a pose; of the others a tenth")
     parser.add_argument("--planner", action="append", help="only this one; may be given again")
     parser.add_argument("--task", action="append", help="only this one; may be given again")
