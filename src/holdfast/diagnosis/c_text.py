@@ -137,9 +137,9 @@ static void observe(NAME_state *s, const double *q, const double *torque) {
 
 /* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
 static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
-    double there[12], turn[9], mean[6] = {0}, w;
+    double there[12], ends[3 * N], turn[9], mean[6] = {0}, w;
     int i, j, k, some;
-    tool(q, there, jacobian);
+    tool(q, there, jacobian, ends);
     for (i = 0; i < 3; ++i) {
         residual[i] = pose[4 * i + 3] - there[9 + i];
         for (j = 0; j < 3; ++j)
@@ -159,16 +159,15 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
     return w;
 }
 
-/* Does a force at the tool explain the mean residual torques better than any joint alone? */
-static int is_a_push(const NAME_state *s, const double *q) {
-    double there[12], jacobian[6 * N], column[3][N], mean[N], whole = 0, most = 0, left = 0, size, before, along;
+/* Of `rows`, in squares of deviations, what a force at the far end of link `last` cannot explain; end: from the tool there. */
+static double left_by_force(const double *rows, const double *jacobian, const double *end, int last) {
+    double column[3][N], rest[N], size, before, along, left = 0;
     int i, j, k;
-    tool(q, there, jacobian);
     for (k = 0; k < N; ++k) {
-        mean[k] = s->residual[k] / CONST_SPLIT / (CONST_SCALE * torque_bound[k]);
-        whole += mean[k] * mean[k];
-        most = larger(most, mean[k] * mean[k]);
-        for (i = 0; i < 3; ++i) column[i][k] = jacobian[6 * k + i] / (CONST_SCALE * torque_bound[k]);
+        const double *v = jacobian + 6 * k, *w = v + 3, scale = k > last ? 0 : 1 / (CONST_SCALE * torque_bound[k]);
+        rest[k] = rows[k];
+        for (i = 0; i < 3; ++i)
+            column[i][k] = scale * (v[i] + w[(i + 1) % 3] * end[(i + 2) % 3] - w[(i + 2) % 3] * end[(i + 1) % 3]);
     }
     for (i = 0; i < 3; ++i) {
         for (before = 0, k = 0; k < N; ++k) before += column[i][k] * column[i][k];
@@ -177,13 +176,27 @@ static int is_a_push(const NAME_state *s, const double *q) {
             for (k = 0; k < N; ++k) column[i][k] -= along * column[j][k];
         }
         for (size = 0, k = 0; k < N; ++k) size += column[i][k] * column[i][k];
-        size = size > 1e-20 * before ? sqrt(size) : 0;
+        size = size > 1e-18 * before ? sqrt(size) : 0;
         for (k = 0; k < N; ++k) column[i][k] = size > 0 ? column[i][k] / size : 0;
-        for (along = 0, k = 0; k < N; ++k) along += column[i][k] * mean[k];
-        for (k = 0; k < N; ++k) mean[k] -= along * column[i][k];
+        for (along = 0, k = 0; k < N; ++k) along += column[i][k] * rest[k];
+        for (k = 0; k < N; ++k) rest[k] -= along * column[i][k];
     }
-    for (k = 0; k < N; ++k) left += mean[k] * mean[k];
-    return left + CONST_PUSHED < whole - most;
+    for (k = 0; k < N; ++k) left += rest[k] * rest[k];
+    return left;
+}
+
+/* Does a force on a link explain the mean residual torques better than any joint alone? */
+static int is_a_push(const NAME_state *s, const double *q) {
+    double there[12], jacobian[6 * N], ends[3 * N], rows[N], whole = 0, most = 0, least = HUGE_VAL;
+    int k;
+    tool(q, there, jacobian, ends);
+    for (k = 0; k < N; ++k) {
+        rows[k] = s->residual[k] / CONST_SPLIT / (CONST_SCALE * torque_bound[k]);
+        whole += rows[k] * rows[k];
+        most = larger(most, rows[k] * rows[k]);
+    }
+    for (k = 0; k < N; ++k) least = smaller(least, left_by_force(rows, jacobian, ends + 3 * k, k));
+    return least + CONST_PUSHED < whole - most;
 }
 
 /* A cycle after the alarm: sums, which are all that the decision needs. */
@@ -362,35 +375,5 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
 const char *NAME_kind_name(NAME_kind kind) {
     static const char *const names[] = {KIND_WORDS};
     return names[kind];
-}
-"""
-
-EXAMPLE = """\
-/*
- * Reads a record from standard input, one cycle a line (COUNT measured joint values, COUNT references, COUNT torques), and says
- * what the monitor says. In a controller NAME_step stands in the cycle.
- * cc -std=c99 NAME.c NAME_example.c -lm -o NAME_example
- */
-#include "NAME.h"
-
-#include <stdio.h>
-
-int main(void) {
-    static NAME_state state; /* one for each arm */
-    double cycle[3 * COUNT];
-    NAME_verdict verdict = {0, 0, -1, GUARD_UNKNOWN, -1};
-    int k, known = 0;
-    NAME_init(&state);
-    for (;;) {
-        for (k = 0; k < 3 * COUNT && scanf("%lf", cycle + k) == 1;) ++k;
-        if (k < 3 * COUNT) break;
-        NAME_step(&state, cycle, cycle + COUNT, cycle + 2 * COUNT, 0, &verdict);
-        if (verdict.alarm && !known) printf("alarm at %.3f s\\n", verdict.time);
-        known = verdict.alarm;
-    }
-    if (!known) puts("no fault seen, which does not prove that there is none");
-    else if (verdict.joint < 0) printf("no joint is known: %s\\n", NAME_kind_name(verdict.kind));
-    else printf("%s: %s\\n", NAME_joints[verdict.joint], NAME_kind_name(verdict.kind));
-    return known ? 3 : 0;
 }
 """

@@ -18,7 +18,7 @@ from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.control.export import check_name, quoted, version
-from holdfast.diagnosis import c_text, decision, kinds
+from holdfast.diagnosis import c_example, c_text, decision, kinds
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
@@ -99,7 +99,7 @@ def export_c(
         f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_graph(arm, bounds, known, name)}\n'
         + _filled(c_text.SOURCE, constants),
         f"{name}.h": f"{about}\n" + _filled(c_text.HEADER, words),
-        f"{name}_example.c": _filled(c_text.EXAMPLE, words),
+        f"{name}_example.c": _filled(c_example.EXAMPLE, words),
     }
     source, header, example = put(folder, texts)
     return ExportedMonitor(arm=arm, source=source, header=header, example=example, digest=digest)
@@ -173,7 +173,9 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     """Names, bounds, and what is computed of the arm's equations, by the graph that the Python monitor has."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
-    told = [pose[:3, :3].T, pose[:3, 3], kinematics.jacobian(arm, q)]  # a matrix is written column by column
+    moving, _ = kinematics.frames(arm, kinematics.joint_steps(arm, q))
+    ends = ca.horzcat(*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1))  # of links, from the tool
+    told = [pose[:3, :3].T, pose[:3, 3], kinematics.jacobian(arm, q), ends]  # a matrix is written column by column
     functions = {"tool": ca.Function(f"{name}_tool_graph", [q], [ca.densify(ca.vec(x)) for x in told], {"cse": True})}
     if np.isfinite(bounds.torque).all():
         terms = momentum_terms(bounds.body(arm), q, v)
@@ -186,8 +188,8 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     text = re.sub(outer, "", generator.dump(), flags=re.M | re.S)
     text = re.sub(r"^(?:static const casadi_int|#define) casadi_s\d.*\n", "", text, flags=re.M)
     text = re.sub(r"int mem\) ?\{\n", "int mem) {\n  (void)iw; (void)w; (void)mem;\n", text)
-    sizes = {"p": arm.n, "energy": arm.n, "gravity": arm.n, "there": 12, "jacobian": 6 * arm.n}
-    calls = {"tool": (["q"], ["there", "jacobian"], "there, there + 9, jacobian")}
+    sizes = {"p": arm.n, "energy": arm.n, "gravity": arm.n, "there": 12, "jacobian": 6 * arm.n, "ends": 3 * arm.n}
+    calls = {"tool": (["q"], ["there", "jacobian", "ends"], "there, there + 9, jacobian, ends")}
     calls["momentum"] = (["q", "v"], ["p", "energy", "gravity"], "p, energy, gravity")
     for k, (call, function) in enumerate(functions.items()):
         inputs, outputs, results = calls[call]
@@ -195,7 +197,7 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
         text += f"""
 static void {call}({given}) {{
     const double *arg[{max(function.sz_arg(), len(inputs))}] = {{{", ".join(inputs)}}};
-    double *res[{max(function.sz_res(), 3)}] = {{{results}}};
+    double *res[{max(function.sz_res(), 4)}] = {{{results}}};
     int iw[{max(function.sz_iw(), 1)}];
     double w[{max(function.sz_w(), 1)}];
     casadi_f{k}(arg, res, iw, w, 0);
