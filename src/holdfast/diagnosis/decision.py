@@ -107,8 +107,9 @@ class Decision:
         if self._torques:
             self._push = _is_a_push(self._arm, q, mean, bound)
         i, bounds = int(self._size.argmax()), self._bounds
-        both = float(bounds.torque[i]), float(bounds.tracking[i])
-        self._kinds = Kinds(i, coulomb=float(bounds.coulomb[i]), bounds=both, noise=self._noise, torques=self._torques)
+        both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
+        dry = float(bounds.coulomb[i])
+        self._kinds = Kinds(i, coulomb=dry, bounds=both, largest=healthy, noise=self._noise, torques=self._torques)
 
     def verdict(self, *, last: bool = False) -> Verdict:
         """What is known now.
