@@ -64,6 +64,7 @@ def bounds_of(arm):
         joints=arm.joint_names,
         rate=1000.0,
         torque=np.linspace(4.0, 1.0, n),
+        change=np.linspace(2.0, 0.6, n),
         tracking=np.linspace(4e-3, 8e-3, n),
         position=2e-3,
         angle=4e-3,

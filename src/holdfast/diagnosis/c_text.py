@@ -32,7 +32,7 @@ typedef struct {
 
 /* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
 typedef struct {
-    double v[COUNT], r[COUNT];
+    double v[COUNT], r[COUNT], level[COUNT];
     double over_z[COUNT], over_y[COUNT], over_w;
     long cycle, fast, seen, seen_at, count, poses, some;
     int begun, referred, alarmed, torques, tool, suspect, push, joint, told;
@@ -164,7 +164,7 @@ static double left_by_force(const double *rows, const double *jacobian, const do
     double column[3][N], rest[N], size, before, along, left = 0;
     int i, j, k;
     for (k = 0; k < N; ++k) {
-        const double *v = jacobian + 6 * k, *w = v + 3, scale = k > last ? 0 : 1 / (CONST_SCALE * torque_bound[k]);
+        const double *v = jacobian + 6 * k, *w = v + 3, scale = k > last ? 0 : 1 / (CONST_SCALE * change_bound[k]);
         rest[k] = rows[k];
         for (i = 0; i < 3; ++i)
             column[i][k] = scale * (v[i] + w[(i + 1) % 3] * end[(i + 2) % 3] - w[(i + 2) % 3] * end[(i + 1) % 3]);
@@ -185,13 +185,13 @@ static double left_by_force(const double *rows, const double *jacobian, const do
     return left;
 }
 
-/* Does a force on a link explain the mean residual torques better than any joint alone? */
+/* Does a force on a link explain the change of the residual torques better than any joint alone? */
 static int is_a_push(const NAME_state *s, const double *q) {
     double there[12], jacobian[6 * N], ends[3 * N], rows[N], whole = 0, most = 0, least = HUGE_VAL;
     int k;
     tool(q, there, jacobian, ends);
     for (k = 0; k < N; ++k) {
-        rows[k] = s->residual[k] / CONST_SPLIT / (CONST_SCALE * torque_bound[k]);
+        rows[k] = (s->residual[k] / CONST_SPLIT - s->level[k]) / (CONST_SCALE * change_bound[k]);
         whole += rows[k] * rows[k];
         most = larger(most, rows[k] * rows[k]);
     }
@@ -332,7 +332,7 @@ void NAME_init(NAME_state *s) {
 
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
                NAME_verdict *verdict) {
-    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0;
+    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, over_z = 0, over_y = 0, most = 0;
     int k, gated, look_now = 0;
     if (!WITH_TORQUES) torque = 0;
     s->cycle += 1;
@@ -348,8 +348,9 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         y[k] = fabs(reference[k] - q[k]) / tracking_bound[k];
         s->over_z[k] = larger(0, s->over_z[k] + (z[k] - 1) * DT);
         if (!gated) s->over_y[k] = larger(0, s->over_y[k] + (y[k] - 1) * DT);
-        most_z = larger(most_z, s->over_z[k]);
-        most_y = larger(most_y, s->over_y[k]);
+        over_z = larger(over_z, s->over_z[k]);
+        over_y = larger(over_y, s->over_y[k]);
+        most = larger(most, z[k]);
         if (gated) y[k] = 0;
     }
     s->referred = 1;
@@ -357,12 +358,13 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         w = look(s, q, pose, residual, jacobian);
         look_now = 1;
     }
-    if (!s->alarmed && (most_z > CONST_LIMIT_Z || most_y > CONST_LIMIT_Y || s->over_w > CONST_LIMIT_W)) {
+    for (k = 0; k < N && !s->alarmed && most < CONST_UNSURE; ++k) s->level[k] += CONST_LEVEL * (s->r[k] - s->level[k]);
+    if (!s->alarmed && (over_z > CONST_LIMIT_Z || over_y > CONST_LIMIT_Y || s->over_w > CONST_LIMIT_W)) {
         s->alarmed = s->verdict.alarm = 1;
         s->verdict.time = (double)(s->cycle - 1) * DT;
         s->torques = torque != 0;
         s->tool = s->seen > 0;
-        s->suspect = !(most_z > CONST_LIMIT_Z || most_y > CONST_LIMIT_Y);
+        s->suspect = !(over_z > CONST_LIMIT_Z || over_y > CONST_LIMIT_Y);
     }
     if (s->alarmed && s->count < CONST_ENDS) {
         follow(s, q, reference, z, y);

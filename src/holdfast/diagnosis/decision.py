@@ -23,7 +23,8 @@ AGAIN, WATCHED = 0.5, 2.0  # s after the alarm: the tool's pose may still call i
 SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
 WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
 _SAME = 1e-9  # of the largest: a direction in which a force loads no joint
-PUSHED = 6.0  # likewise a force at the far end of a link explains the torques so much better than one joint
+UNSURE = 0.7  # of a torque bound: a level of residuals follows them while all are below; healthy ones are below 1 / factor
+PUSHED = 4.0  # likewise a force at the far end of a link explains the torques so much better than one joint
 
 
 class Decision:
@@ -34,17 +35,27 @@ class Decision:
         bounds: Of the healthy arm.
         sensors: How good they are.
         time: Of the alarm, s.
+        level: (n,) of the residual torques before it, N m and N.
         torques: Whether torques are watched.
         tool: Whether the tool's pose is measured at all.
         tool_alone: Whether nothing but the tool's pose alarmed.
     """
 
     def __init__(
-        self, arm: Arm, bounds: Bounds, sensors: Sensors, *, time: float, torques: bool, tool: bool, tool_alone: bool
+        self,
+        arm: Arm,
+        bounds: Bounds,
+        sensors: Sensors,
+        *,
+        time: float,
+        level: Array,
+        torques: bool,
+        tool: bool,
+        tool_alone: bool,
     ) -> None:
         n, dt = arm.n, 1 / bounds.rate
         self._arm, self._bounds, self._noise = arm, bounds, sensors.joint
-        self._time, self._torques, self._tool = time, torques, tool
+        self._time, self._level, self._torques, self._tool = time, level, torques, tool
         self._split, self._last = cycles(ISOLATE, dt), cycles(ISOLATE + CLASSIFY, dt)
         self._again, self.ends = cycles(AGAIN, dt), cycles(WATCHED, dt)
         self.count = 0
@@ -103,9 +114,8 @@ class Decision:
 
     def _isolate(self, q: Array) -> None:
         """The joint with the largest residuals, unless a force on a link explains the residual torques better than it."""
-        mean, bound = self._residual / self._split, SCALE * self._bounds.torque
         if self._torques:
-            self._push = _is_a_push(self._arm, q, mean, bound)
+            self._push = _is_a_push(self._arm, q, self._residual / self._split - self._level, SCALE * self._bounds.change)
         i, bounds = int(self._size.argmax()), self._bounds
         both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
         dry = float(bounds.coulomb[i])
@@ -154,16 +164,16 @@ def cycles(seconds: float, dt: float) -> int:
     return max(1, round(seconds / dt))
 
 
-def _is_a_push(arm: Arm, q: Array, mean: Array, scale: Array) -> bool:
-    """Whether a force at the far end of a link explains mean residual torques better than any joint alone.
+def _is_a_push(arm: Arm, q: Array, change: Array, scale: Array) -> bool:
+    """Whether a force at the far end of a link explains a change of residual torques better than any joint alone.
 
     Args:
         arm: The arm.
         q: (n,) where it is, rad and m.
-        mean: (n,) residual torques, N m and N.
-        scale: (n,) their deviations.
+        change: (n,) N m and N.
+        scale: (n,) its deviations.
     """
-    ends, jacobian, rows = arm.frames(q)[2:, :3, 3], arm.jacobian(q), mean / scale
+    ends, jacobian, rows = arm.frames(q)[2:, :3, 3], arm.jacobian(q), change / scale
     least = np.inf
     for k, end in enumerate(ends):
         columns = (jacobian[:3] + np.cross(jacobian[3:].T, end - ends[-1]).T).T / scale[:, None]

@@ -20,7 +20,7 @@ from holdfast.arm.model import Arm
 from holdfast.control.export import check_name, quoted, version
 from holdfast.diagnosis import c_example, c_text, decision, kinds
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
+from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
 from holdfast.files.output import put
@@ -131,6 +131,8 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "DT": dt,
         "BAND": min(1.0, BAND * dt),
         "LOW": min(1.0, GAIN * dt),
+        "LEVEL": min(1.0, LEVEL * dt),
+        "UNSURE": decision.UNSURE,
         "KEEP": 1 - GAIN * dt,
         "GAIN": GAIN,
         "SLIP": SLIP,
@@ -205,7 +207,7 @@ static void {call}({given}) {{
 """
     joints = ", ".join(quoted(x) for x in arm.joint_names)
     text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
-    text += _array("torque_bound", bounds.torque) + _array("tracking_bound", bounds.tracking)
+    text += "".join(_array(f"{x}_bound", getattr(bounds, x)) for x in ("torque", "change", "tracking"))
     text += _array("weight", np.repeat(1 / np.array([sensors.position, sensors.angle]), 3))
     text += _array("viscous", bounds.viscous) if "momentum" in functions else ""
     return text + _array("coulomb", bounds.coulomb)

@@ -10,9 +10,9 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.diagnosis.answer import Diagnosis
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, Decision, cycles
+from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, UNSURE, Decision, cycles
 from holdfast.diagnosis.kinds import Verdict
-from holdfast.diagnosis.observer import BAND, GAIN, friction_torque, low_passed, momentum_kernel
+from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, friction_torque, level, low_passed, momentum_kernel
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW, SMOOTHED, Scaled, Signals, bridged, signals_of, tool_residual
 from holdfast.faults.log import Log
@@ -74,13 +74,15 @@ class Monitor:
         verdict = Verdict(False) if scaled.alarm is None else self._followed(log, signals, scaled, *scaled.alarm)
         return Diagnosis(arm=self.arm, log=log, bounds=bounds, signals=signals, scaled=scaled, verdict=verdict)
 
-    def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...]) -> Decision:
+    def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], before: Array) -> Decision:
         watched = {"torques": "torque" in levels, "tool": "tool" in levels}
-        return Decision(self.arm, self.bounds, self.sensors, time=time, **watched, tool_alone=alarmed == ("tool",))
+        return Decision(self.arm, self.bounds, self.sensors, time=time, level=before, **watched, tool_alone=alarmed == ("tool",))
 
     def _followed(self, log: Log, signals: Signals, scaled: Scaled, row: int, alarmed: tuple[str, ...]) -> Verdict:
         """What a record comes to after its alarm."""
-        decision = self._decision(float(log.t[row]), signals.levels, alarmed)
+        sure = (scaled.torque[: row + 1] < UNSURE).all(axis=1)
+        before = level(np.concatenate([np.zeros((1, log.n)), signals.torque[: row + 1][sure]]), signals.dt)[-1]
+        decision = self._decision(float(log.t[row]), signals.levels, alarmed, before)
         rows = slice(row, row + decision.ends)
         q, reference = bridged(log.q), bridged(log.q_ref)[rows]
         low = np.zeros(q.shape)
@@ -106,7 +108,7 @@ class Monitor:
     def reset(self) -> None:
         """Forget everything: the next step is the first."""
         self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
-        self._v = self._r = self._p = self._gravity = self._tau = self._low = np.zeros(self.arm.n)
+        self._v = self._r = self._p = self._gravity = self._tau = self._low = self._level = np.zeros(self.arm.n)
         self._q: Array | None = None
         self._reference: Array | None = None
         self._last = np.zeros((SMOOTHED, 6))
@@ -141,12 +143,14 @@ class Monitor:
         self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
         seen = None if pose is None else self._look(place, np.asarray(pose, dtype=np.float64))
         if self._alarm is None:
+            if (z < UNSURE).all():
+                self._level = self._level + min(1.0, LEVEL * self._dt) * (self._r - self._level)
             over = {"torque": self._over_z.max(), "tracking": self._over_y.max(), "tool": self._over_w}
             alarmed = tuple(name for name in over if over[name] > LIMITS[name])
             if alarmed:
                 time = (self._cycle - 1) * self._dt
                 levels = ("tracking", *["torque"] * (tau is not None), *["tool"] * (self._seen > 0))
-                self._alarm, self.verdict = self._decision(time, levels, alarmed), Verdict(True, time)
+                self._alarm, self.verdict = self._decision(time, levels, alarmed, self._level), Verdict(True, time)
         if self._alarm is not None and self._alarm.count < self._alarm.ends:
             self._alarm.add(place, wanted, (self._v, self._r, self._low, self._gravity), z, y)
             if seen is not None:
