@@ -28,24 +28,31 @@ def drawn(arm: hf.Arm, seed: int) -> hf.diagnosis.Push:
     return hf.diagnosis.Push(arm.joint_names[k], tuple(force.tolist()), onset, end=onset + rng.uniform(*LASTS), point=where)
 
 
-def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, seed: int) -> dict[str, Any]:
-    """What is said of one."""
-    push = drawn(arm, seed)
-    log = hf.diagnosis.rehearse(arm, LENGTH, seed=SEEDS + seed, pushes=[push])
-    verdict = hf.diagnosis.diagnose(arm, log, bounds).verdict
-    return {
-        "link": arm.joint_index(push.joint) + 1,
-        "noticed": bool(verdict.alarm),
-        "early": bool(verdict.alarm and verdict.time < push.onset),
-        "kind": verdict.kind,
-        "joint": verdict.joint,
-        "delay": verdict.time - push.onset if verdict.alarm else None,
-    }
+def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, seeds: range) -> list[dict[str, Any]]:
+    """What is said of some."""
+    pushes = [drawn(arm, seed) for seed in seeds]
+    logs = hf.diagnosis.rehearse_many(
+        arm, LENGTH, seeds=[SEEDS + seed for seed in seeds], pushes=[[push] for push in pushes]
+    )
+    found = []
+    for push, log in zip(pushes, logs, strict=True):
+        verdict = hf.diagnosis.diagnose(arm, log, bounds).verdict
+        found.append(
+            {
+                "link": arm.joint_index(push.joint) + 1,
+                "noticed": bool(verdict.alarm),
+                "early": bool(verdict.alarm and verdict.time < push.onset),
+                "kind": verdict.kind,
+                "joint": verdict.joint,
+                "delay": verdict.time - push.onset if verdict.alarm else None,
+            }
+        )
+    return found
 
 
 def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) -> list[str]:
     """A line for each link, and one for all."""
-    found = [store.get(f"push {robots} {k}", lambda k=k: judged(store.arm, bounds, k)) for k in range(count)]
+    found = store.some(f"push {robots}", count, lambda seeds: judged(store.arm, bounds, seeds))
     lines = [
         f"## Pushes on every link, {store.arm.title}",
         "",

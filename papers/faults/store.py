@@ -14,6 +14,7 @@ import holdfast as hf
 from holdfast.probability import Interval
 
 COULOMB, VISCOUS = 0.5, 0.3  # N m, N m s/rad: what the records have, within 20 %
+PART = 30  # of what is found together
 CALIBRATED = 60.0  # s of each robot
 
 
@@ -44,13 +45,18 @@ class Store:
                     lines.write(json.dumps([key, self._found[key]]) + "\n")
         return self._found[key]
 
+    def some(self, key: str, count: int, make: Callable[[range], list[Any]]) -> list[Any]:
+        """So many things, of which ``make`` finds the ones with the numbers that it is given."""
+        parts = (range(k, min(k + PART, count)) for k in range(0, count, PART))
+        return [x for part in parts for x in self.get(f"{key} {part[0]}-{part[-1]}", lambda part=part: make(part))]
+
     def bounds(self, robots: int) -> hf.diagnosis.Bounds:
         """Over many robots of one kind."""
         file = None if self._folder is None else self._folder / f"{self.arm.name}-bounds-{robots}.json"
         if file is not None and file.exists():
             return hf.diagnosis.load(file)
         arm = self.arm
-        logs = [hf.diagnosis.rehearse(arm, CALIBRATED, seed=k) for k in range(robots)]
+        logs = hf.diagnosis.rehearse_many(arm, CALIBRATED, seeds=range(robots))
         found = hf.diagnosis.calibrate(arm, logs, coulomb=np.full(arm.n, COULOMB), viscous=np.full(arm.n, VISCOUS))
         if file is not None:
             found.to_json(file)
