@@ -20,6 +20,7 @@ FLAGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-co
 SANITISED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
 CYCLES, REARMED, TOLERANCE = 400, 300, 1e-12
+SENSORS = hf.diagnosis.Sensors(latency=0.003)
 # Reads records, one cycle after the other in doubles: q, reference, whether there are torques and they, whether there is a pose
 # and that; a cycle that begins with a number above 1e300 begins a new record. Writes r, excess and verdict.
 HARNESS = """
@@ -28,7 +29,7 @@ HARNESS = """
 enum { N = MONITOR_JOINTS, AGAIN = 300 };
 static monitor_state state;
 int main(void) {
-    double in[3 * N + 18], out[2 * N + 6];
+    double in[3 * N + 18], out[2 * N + 7];
     monitor_verdict told;
     int k, cycle = 0;
     monitor_init(&state);
@@ -39,8 +40,8 @@ int main(void) {
         for (k = 0; k < N; ++k) { out[k] = state.r[k]; out[N + k] = state.over_y[k]; }
         out[2 * N] = state.over_w;
         out[2 * N + 1] = told.alarm; out[2 * N + 2] = told.time; out[2 * N + 3] = told.joint; out[2 * N + 4] = told.kind;
-        out[2 * N + 5] = told.loss;
-        fwrite(out, sizeof *out, 2 * N + 6, stdout);
+        out[2 * N + 5] = told.loss; out[2 * N + 6] = monitor_stale(&state);
+        fwrite(out, sizeof *out, 2 * N + 7, stdout);
     }
     return 0;
 }
@@ -49,7 +50,7 @@ int main(void) {
 
 def built(arm, bounds, folder, flags=SANITISED):
     """The program."""
-    hf.diagnosis.export_c(arm, bounds, folder)
+    hf.diagnosis.export_c(arm, bounds, folder, sensors=SENSORS)
     (folder / "harness.c").write_text(HARNESS, encoding="utf-8")
     command = [COMPILER, *FLAGS, *flags, "monitor.c", "harness.c", "-lm", "-o", "harness"]
     subprocess.run(command, cwd=folder, check=True, timeout=300)
@@ -105,8 +106,9 @@ def random_record(arm, rng):
     elif wrong == 5:  # a push
         force = rng.normal(0, 30, 3)
         tau[onset:] -= np.einsum("tij,i->tj", arm.jacobian(true[onset:])[:, :3], force)
-    elif wrong == 6:  # the tool is not where it should be, and samples are missing
+    elif wrong == 6:  # samples are missing, some in a row
         told[rng.integers(0, CYCLES, 6)] = np.nan
+        told[onset : onset + rng.integers(1, 120)] = np.nan
     poses = np.full((CYCLES, 4, 4), np.nan)
     if rng.uniform() < 0.7:
         every = rng.integers(1, 12)
@@ -127,7 +129,8 @@ def said_by_python(monitor, record):
         v = monitor.step(told[k], reference[k], None if tau is None else tau[k], pose=pose)
         joint = -1 if v.joint is None else names.index(v.joint)
         loss = -1 if np.isnan(v.loss) else v.loss
-        last = [v.alarm, v.time if v.alarm else 0, joint, KINDS.index(v.kind), loss]
+        stale = ("joints" in monitor.stale) + 2 * ("tool" in monitor.stale)
+        last = [v.alarm, v.time if v.alarm else 0, joint, KINDS.index(v.kind), loss, stale]
         rows.append([*monitor._r, *monitor._over_y, monitor._over_w, *last])
     return np.array(rows, dtype=float)
 
@@ -148,18 +151,17 @@ def as_bytes(arm, record):
 
 def compared(arm, program, count, rng, bounds):
     """The largest difference in units of what is compared, verdicts that differ, and kinds that were named."""
-    monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds), 0.0, 0, set()
+    monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds, sensors=SENSORS), 0.0, 0, set()
     n = arm.n
     for _ in range(count):
         record = random_record(arm, rng)
         ours = said_by_python(monitor, record)
         done = subprocess.run([str(program)], input=as_bytes(arm, record), capture_output=True, check=True)
-        theirs = np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 6)
+        theirs = np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 7)
         size = np.r_[np.maximum(np.abs(ours[:, :n]).max(axis=0), bounds.torque), np.ones(n + 1)]
         worst = max(worst, float((np.abs(ours - theirs)[:, : 2 * n + 1] / size).max()))
-        same = (ours[:, 2 * n + 1 : -1] == theirs[:, 2 * n + 1 : -1]).all() and np.allclose(
-            ours[:, -1], theirs[:, -1], atol=1e-9
-        )
+        whole = [k for k in range(2 * n + 1, 2 * n + 7) if k != 2 * n + 5]
+        same = (ours[:, whole] == theirs[:, whole]).all() and np.allclose(ours[:, 2 * n + 5], theirs[:, 2 * n + 5], atol=1e-9)
         unlike += not same
         last = theirs[REARMED - 2]
         named.add(KINDS[int(last[2 * n + 4])] if last[2 * n + 1] else "none")

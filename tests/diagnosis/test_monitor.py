@@ -121,6 +121,28 @@ def test_a_loop_says_what_a_record_says(seen, panda, bounds, records):
     assert not monitor.step(log.q[0] * np.nan, log.q_ref[0], log.tau[0], pose=np.full((4, 4), np.nan)).alarm
 
 
+def test_a_pose_that_comes_late_and_numbers_that_do_not_come(panda, bounds, records, healthy):
+    """Late poses name the sensor that timely ones name; gaps of every length are nobody's fault, and said after 50 ms."""
+    log, late = records["sensor_drift"], 9
+    poses = {k + late: pose_of(log.x[k], log.quat[k]) for k in np.flatnonzero(np.isfinite(log.x).all(axis=1))}
+    monitor = hf.diagnosis.Monitor(panda, bounds, sensors=hf.diagnosis.Sensors(latency=0.009))
+    rows = enumerate(zip(log.q, log.q_ref, log.tau, strict=True))
+    told = [monitor.step(*row, pose=poses.get(k)) for k, row in rows]
+    whole = monitor.run(log).verdict
+    assert (told[-1].joint, told[-1].kind) == (whole.joint, whole.kind) == ("panda_joint6", "sensor")
+    assert whole.time <= told[-1].time + 1e-9 <= whole.time + 0.010
+    log, monitor = healthy[1], hf.diagnosis.Monitor(panda, bounds)
+    for gap in (1, 10, 40, 60, 400):
+        monitor.reset()
+        for k, row in enumerate(zip(log.q, log.q_ref, log.tau, strict=True)):
+            missing = 1000 <= k < 1000 + gap
+            monitor.step(row[0] * np.nan if missing else row[0], *row[1:])
+            assert monitor.stale == (("joints",) if missing and k - 1000 >= 50 else ())
+        assert not monitor.verdict.alarm
+    with pytest.raises(InputError, match="latency is -1 s; it must be 0 to 1 s"):
+        hf.diagnosis.Sensors(latency=-1)
+
+
 def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):
     """Without torques: a lock is seen while every reference is slow, and nothing is counted within 0.1 s of fast motion."""
     logs = [dataclasses.replace(log, tau=None, x=None, quat=None) for log in healthy]

@@ -6,6 +6,8 @@ HEADER = """\
 
 #define GUARD_JOINTS COUNT
 #define GUARD_RATE RATE_HZ
+/* Cycles by which a pose comes after it was taken. */
+#define GUARD_LATE LATE_CYCLES
 /* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
 #define GUARD_HOLDFAST "VERSION"
 #define GUARD_ARM "FINGERPRINT"
@@ -35,7 +37,8 @@ typedef struct {
     double v[COUNT], r[COUNT], level[COUNT];
     double over_z[COUNT], over_y[COUNT], over_w;
     long cycle, fast, seen, seen_at, count, poses, some;
-    int begun, referred, alarmed, torques, tool, suspect, push, joint, told;
+    int begun, anew, missed, known, referred, alarmed, torques, tool, suspect, push, joint, told;
+    double past[GUARD_LATE + 1][COUNT], felt[COUNT];
     double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
     double size[COUNT], residual[COUNT], left[COUNT], gap;
     double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
@@ -52,9 +55,12 @@ void NAME_rearm(NAME_state *state);
 
 /* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
    q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
-   torque: commanded torques, N m and N, or NULL. pose: the tool's measured pose, taken now, (4, 4) row by row, or NULL. */
+   torque: commanded torques, N m and N, or NULL. pose: the tool's, measured GUARD_LATE cycles ago, (4, 4) by rows, or NULL. */
 void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
                const double *pose, NAME_verdict *verdict);
+
+/* What has told no number for 50 ms: 1 joints (or torques), 2 the tool once it has been seen, 3 both, 0 nothing. */
+int NAME_stale(const NAME_state *state);
 
 /* A word for each kind. */
 const char *NAME_kind_name(NAME_kind kind);
@@ -70,55 +76,28 @@ SOURCE = """\
 enum { N = COUNT, SMOOTHED = 5 };
 static const double DT = CONST_DT;
 
-static double larger(double a, double b) { return a > b ? a : b; }
-static double smaller(double a, double b) { return a < b ? a : b; }
-
-static int finite_all(const double *x, int count) {
-    int k;
-    for (k = 0; k < count; ++k)
-        if (!(x[k] - x[k] == 0)) return 0;
-    return 1;
-}
-
 static void answer(NAME_state *s, int joint, NAME_kind kind, double loss) {
     s->verdict.joint = joint;
     s->verdict.kind = kind;
     s->verdict.loss = loss;
 }
 
-/* Rotation vector of a rotation, row by row, by the longest row of 4 q q' of its quaternion q. */
-static void rotation_vector(const double r[9], double out[3]) {
-    double o[4][4], q[4], size = 0, half, factor, trace = r[0] + r[4] + r[8];
-    int i, j, best = 0;
-    for (i = 0; i < 3; ++i)
-        for (j = 0; j < 3; ++j) o[i][j] = i == j ? 1 + 2 * r[4 * i] - trace : r[3 * i + j] + r[3 * j + i];
-    o[3][3] = 1 + trace;
-    o[3][0] = o[0][3] = r[7] - r[5];
-    o[3][1] = o[1][3] = r[2] - r[6];
-    o[3][2] = o[2][3] = r[3] - r[1];
-    for (i = 1; i < 4; ++i)
-        if (o[i][i] > o[best][best]) best = i;
-    for (i = 0; i < 4; ++i) size += o[best][i] * o[best][i];
-    for (i = 0; i < 4; ++i) q[i] = o[best][i] / sqrt(size) * (o[best][3] < 0 ? -1 : 1);
-    half = atan2(sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), q[3]);
-    factor = half > 1e-12 ? 2 * half / sin(half) : 2;
-    for (i = 0; i < 3; ++i) out[i] = q[i] * factor;
-}
-
 /* Rates, and the residual of the momentum. */
 static void observe(NAME_state *s, const double *q, const double *torque) {
 #if WITH_TORQUES
     double p[N], energy[N], known;
+    int anew = !s->begun || s->anew > 0;
 #endif
     int k, first = !s->begun;
     for (k = 0; k < N; ++k) {
         if (first) {
             if (torque) s->torque[k] = s->low[k] = torque[k];
         } else {
-            s->v[k] += CONST_BAND * ((q[k] - s->q[k]) / DT - s->v[k]);
+            s->v[k] += (s->anew > CONST_LONGEST ? 1 : CONST_BAND) * ((q[k] - s->q[k]) / DT - s->v[k]);
         }
         s->q[k] = q[k];
     }
+    if (!first && s->anew > 0) s->anew -= 1;
     s->begun = 1;
 #if WITH_TORQUES
     if (!torque) return;
@@ -126,13 +105,34 @@ static void observe(NAME_state *s, const double *q, const double *torque) {
     for (k = 0; k < N; ++k) {
         s->torque[k] += CONST_BAND * (torque[k] - s->torque[k]);
         s->low[k] += CONST_LOW * (s->torque[k] - s->low[k]);
-        if (!first) {
+        if (!anew) {
             known = s->torque[k] + energy[k] - s->gravity[k] - (coulomb[k] * tanh(s->v[k] / CONST_SLIP) + viscous[k] * s->v[k]);
             s->r[k] = CONST_KEEP * s->r[k] + CONST_GAIN * (p[k] - s->p[k] - DT * known);
         }
         s->p[k] = p[k];
     }
 #endif
+}
+
+/* Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled. */
+static void bridge(NAME_state *s, const double *q, const double *torque) {
+    double start[N], between[N], felt[N];
+    int i, k;
+    if (s->begun && s->missed > CONST_LONGEST) {
+        s->begun = 0;
+        s->anew = CONST_LONGEST + 1;
+        for (i = 0; i < N; ++i) s->r[i] = 0;
+    }
+    for (i = 0; i < N; ++i) {
+        start[i] = s->q[i];
+        felt[i] = s->known == s->missed && s->known > 0 ? s->felt[i] / s->known : s->torque[i];
+        s->felt[i] = 0;
+    }
+    for (k = 1; k <= s->missed && s->begun; ++k) {
+        for (i = 0; i < N; ++i) between[i] = start[i] + k * ((q[i] - start[i]) / (s->missed + 1));
+        observe(s, between, torque ? felt : 0);
+    }
+    s->missed = s->known = 0;
 }
 
 /* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
@@ -333,11 +333,20 @@ void NAME_init(NAME_state *s) {
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
                NAME_verdict *verdict) {
     double z[N], y[N], residual[6], jacobian[6 * N], w = 0, over_z = 0, over_y = 0, most = 0;
+    const double *then;
     int k, gated, look_now = 0;
     if (!WITH_TORQUES) torque = 0;
     s->cycle += 1;
+    for (k = 0; k < N; ++k) s->past[s->cycle % (GUARD_LATE + 1)][k] = q[k];
+    then = s->past[(s->cycle + 1) % (GUARD_LATE + 1)];
     *verdict = s->verdict;
-    if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) return;
+    if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) {
+        s->missed += 1;
+        s->known += torque && finite_all(torque, N);
+        for (k = 0; k < N && torque && finite_all(torque, N); ++k) s->felt[k] += torque[k];
+        return;
+    }
+    bridge(s, q, torque);
     observe(s, q, torque);
     for (k = 0; k < N && s->referred; ++k)
         if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * DT) s->fast = s->cycle;
@@ -354,8 +363,8 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         if (gated) y[k] = 0;
     }
     s->referred = 1;
-    if (pose && finite_all(pose, 16)) {
-        w = look(s, q, pose, residual, jacobian);
+    if (pose && s->cycle > GUARD_LATE && finite_all(then, N) && finite_all(pose, 16)) {
+        w = look(s, then, pose, residual, jacobian);
         look_now = 1;
     }
     for (k = 0; k < N && !s->alarmed && most < CONST_UNSURE; ++k) s->level[k] += CONST_LEVEL * (s->r[k] - s->level[k]);
@@ -372,6 +381,10 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         if (look_now || s->count == CONST_SPLIT || s->count == CONST_LAST) decide(s);
     }
     *verdict = s->verdict;
+}
+
+int NAME_stale(const NAME_state *s) {
+    return (s->missed > CONST_LONGEST) + 2 * (s->seen > 0 && s->cycle - s->seen_at > CONST_LONGEST);
 }
 
 const char *NAME_kind_name(NAME_kind kind) {

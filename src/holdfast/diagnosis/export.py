@@ -18,8 +18,9 @@ from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.control.export import check_name, quoted, version
-from holdfast.diagnosis import c_example, c_text, decision, kinds
+from holdfast.diagnosis import c_parts, c_text, decision, kinds
 from holdfast.diagnosis.bounds import Bounds
+from holdfast.diagnosis.monitor import STALE
 from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
@@ -93,13 +94,14 @@ def export_c(
     digest = _digest(bounds, known)
     words = {"NAME": name, "GUARD": name.upper(), "COUNT": str(arm.n)}
     words |= {"VERSION": version(), "FINGERPRINT": arm.fingerprint, "DIGEST": digest, "RATE_HZ": repr(bounds.rate)}
+    words["LATE_CYCLES"] = str(round(known.latency * bounds.rate))
     constants = {**words, **_constants(arm, bounds, known)}
     about = _about(arm, bounds, name, digest)
     texts = {
         f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_graph(arm, bounds, known, name)}\n'
-        + _filled(c_text.SOURCE, constants),
+        + _filled(c_parts.ARITHMETIC + c_text.SOURCE, constants),
         f"{name}.h": f"{about}\n" + _filled(c_text.HEADER, words),
-        f"{name}_example.c": _filled(c_example.EXAMPLE, words),
+        f"{name}_example.c": _filled(c_parts.EXAMPLE, words),
     }
     source, header, example = put(folder, texts)
     return ExportedMonitor(arm=arm, source=source, header=header, example=example, digest=digest)
@@ -126,6 +128,7 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "AGAIN": decision.AGAIN,
         "ENDS": decision.WATCHED,
         "CALM": CALM,
+        "LONGEST": STALE,
     }
     values = {
         "DT": dt,

@@ -19,6 +19,8 @@ from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
 
+STALE = 0.050  # s without a number; over shorter gaps lines are drawn
+
 
 @checked
 def diagnose(arm: Arm, log: Log, bounds: Bounds, *, sensors: Sensors | None = None) -> Diagnosis:
@@ -54,6 +56,7 @@ class Monitor:
         bounds.require(arm, bounds.rate)
         self.arm, self.bounds, self.sensors = arm, bounds, sensors or Sensors()
         self._dt = 1 / bounds.rate
+        self._late, self._longest = round(self.sensors.latency * bounds.rate), cycles(STALE, 1 / bounds.rate)
         self._asked = (cycles(ISOLATE, self._dt), cycles(ISOLATE + CLASSIFY, self._dt))
         self._momentum = momentum_kernel(bounds.body(arm)).single() if np.isfinite(bounds.torque).all() else None
         self.reset()
@@ -110,6 +113,8 @@ class Monitor:
         self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
         self._v = self._r = self._p = self._gravity = self._tau = self._low = self._level = np.zeros(self.arm.n)
         self._q: Array | None = None
+        self._felt = np.zeros(self.arm.n)  #  torques of cycles that were passed over
+        self._missed, self._known, self._anew, self._past = 0, 0, 0, np.full((self._late + 1, self.arm.n), np.nan)
         self._reference: Array | None = None
         self._last = np.zeros((SMOOTHED, 6))
         self.rearm()
@@ -126,22 +131,28 @@ class Monitor:
         """One control cycle: what is known now.
 
         Args:
-            q: (n,) what the joint sensors tell, rad and m; with NaN the cycle is passed over.
+            q: (n,) what the joint sensors tell, rad and m; with NaN the cycle is passed over, and is nobody's fault.
             reference: (n,) what the servos follow, rad and m.
             torque: (n,) commanded, N m and N; None: not watched.
-            pose: (4, 4) measured pose of the tool, taken now; None, or NaN: no sample in this cycle.
+            pose: (4, 4) measured pose of the tool, taken ``sensors.latency`` ago; None, or NaN: no sample in this cycle.
         """
         place, wanted = np.asarray(q, dtype=np.float64), np.asarray(reference, dtype=np.float64)
         tau = None if torque is None or self._momentum is None else np.asarray(torque, dtype=np.float64)
         self._cycle += 1
+        self._past[self._cycle % len(self._past)] = place
         if not np.isfinite(place + wanted).all() or (tau is not None and not np.isfinite(tau).all()):
+            self._missed += 1
+            if tau is not None and np.isfinite(tau).all():
+                self._felt, self._known = self._felt + tau, self._known + 1
             return self.verdict
+        self._bridge(place, tau)
         self._observe(place, tau)
         z = np.abs(self._r) / self.bounds.torque
         y = self._tracking(wanted, place, alone=tau is None)
         self._over_z = np.maximum(0.0, self._over_z + (z - 1) * self._dt)
         self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
-        seen = None if pose is None else self._look(place, np.asarray(pose, dtype=np.float64))
+        then = self._past[(self._cycle + 1) % len(self._past)]
+        seen = None if pose is None else self._look(then, np.asarray(pose, dtype=np.float64))
         if self._alarm is None:
             if (z < UNSURE).all():
                 self._level = self._level + min(1.0, LEVEL * self._dt) * (self._r - self._level)
@@ -154,10 +165,27 @@ class Monitor:
         if self._alarm is not None and self._alarm.count < self._alarm.ends:
             self._alarm.add(place, wanted, (self._v, self._r, self._low, self._gravity), z, y)
             if seen is not None:
-                self._alarm.see(*seen, self.arm.jacobian(place))
+                self._alarm.see(*seen, self.arm.jacobian(then))
             if seen is not None or self._alarm.count in self._asked:
                 self.verdict = self._alarm.verdict()
         return self.verdict
+
+    @property
+    def stale(self) -> tuple[str, ...]:
+        """What has told no number for 50 ms: ``joints`` (sensors, references or torques), ``tool`` once it has been seen."""
+        tool = self._seen > 0 and self._cycle - self._seen_at > self._longest
+        return ("joints",) * (self._missed > self._longest) + ("tool",) * tool
+
+    def _bridge(self, q: Array, tau: Array | None) -> None:
+        """Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled."""
+        if self._q is not None and self._missed > self._longest:
+            self._q, self._r, self._anew = None, np.zeros(len(q)), self._longest + 1
+        elif self._q is not None and self._missed:
+            start, step = self._q, (q - self._q) / (self._missed + 1)
+            torque = self._felt / self._known if self._known == self._missed else self._tau
+            for k in range(1, self._missed + 1):
+                self._observe(start + k * step, None if tau is None else torque)
+        self._missed, self._known, self._felt = 0, 0, np.zeros(len(q))
 
     def _tracking(self, reference: Array, q: Array, *, alone: bool) -> Array:
         """In units of its bounds; with joint sensors alone NaN unless all references were slow for a while."""
@@ -170,7 +198,7 @@ class Monitor:
 
     def _look(self, q: Array, pose: Array) -> tuple[float, Array] | None:
         """A sample of the tool's pose: its smoothed residual in units of the bounds, and its own."""
-        if not np.isfinite(pose).all():
+        if not (np.isfinite(pose).all() and np.isfinite(q).all()):
             return None
         residual = tool_residual(self.arm, q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
         self._last[self._seen % SMOOTHED] = residual
@@ -184,9 +212,10 @@ class Monitor:
 
     def _observe(self, q: Array, tau: Array | None) -> None:
         n, dt = self.arm.n, self._dt
-        first = self._q is None
-        if self._q is not None:
-            self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / dt - self._v)
+        anew = self._q is None or self._anew > 0
+        if self._q is not None:  # the arm moves when it is seen again: its first rate is not filtered
+            self._v = self._v + (1.0 if self._anew > self._longest else min(1.0, BAND * dt)) * ((q - self._q) / dt - self._v)
+            self._anew = max(0, self._anew - 1)
         elif tau is not None:
             self._tau = self._low = tau
         self._q = q
@@ -195,7 +224,7 @@ class Monitor:
         self._tau = self._tau + min(1.0, BAND * dt) * (tau - self._tau)
         self._low = self._low + min(1.0, GAIN * dt) * (self._tau - self._low)
         p, energy, self._gravity = self._momentum(np.concatenate((q, self._v))).reshape(3, n)
-        if not first:
+        if not anew:
             known = self._tau + energy - self._gravity - friction_torque(self._v, self.bounds.coulomb, self.bounds.viscous)
             self._r = (1 - GAIN * dt) * self._r + GAIN * (p - self._p - dt * known)
         self._p = p
