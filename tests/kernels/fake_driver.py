@@ -77,7 +77,9 @@ class FakeDriver:
             if state is not None:
                 text = DeviceLoop(program, state, machine, on_device=False).text()
             self.codes[name] = Code(object_code(text, 0))
-        ctypes.CFUNCTYPE(None, *kinds)(self.codes[name].address)(*values)
+        row = ctypes.CFUNCTYPE(None, *kinds, ctypes.c_int64)(self.codes[name].address)
+        for thread in range(rest[0] * rest[3]):
+            row(*values, thread)
 
     def __getattr__(self, name):
         known = {

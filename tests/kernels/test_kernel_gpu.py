@@ -133,9 +133,9 @@ class Reader:
         from holdfast.kernels.gpu import arrays
 
         capsule = self.array.__dlpack__(stream=self.stream)
-        managed = arrays._Managed.from_address(arrays._pointer(capsule, b"dltensor"))
-        managed.tensor.device_type = 1
-        assert ctypes.addressof(managed) in arrays._lent
+        address = arrays._pointer(capsule, b"dltensor")
+        ctypes.c_int32.from_address(address + 8).value = 1  # the kind of its device
+        assert address in arrays._lent
         return capsule
 
 

@@ -245,11 +245,25 @@ class Kernel:
             KernelError: The kernel is not on a GPU.
             InputError: An input that is not such an array, or of a wrong shape.
         """
-        if self._on_device is None:
-            raise KernelError(f"kernel '{self.name}' is on the processor; make it with backend='cuda' for arrays on a GPU")
+        on_device = self._gpu()
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
-        return self._on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
+        return on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
+
+    def upload(self, array: ArrayLike, stream: int = 1) -> Any:
+        """A copy of an array of the host on the kernel's GPU, for :meth:`exchange`.
+
+        Raises:
+            KernelError: The kernel is not on a GPU.
+        """
+        from holdfast.kernels.gpu.arrays import DeviceArray
+
+        return DeviceArray.of(np.asarray(array, dtype=np.float64), self._gpu().device, stream or 1)
+
+    def _gpu(self) -> Any:
+        if self._on_device is None:
+            raise KernelError(f"kernel '{self.name}' is on the processor; make it with backend='cuda' for arrays on a GPU")
+        return self._on_device
 
     def single(self) -> Single:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""
