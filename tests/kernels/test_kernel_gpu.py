@@ -3,34 +3,19 @@
 from __future__ import annotations
 
 import builtins
-import gc
 
 import casadi as ca
 import numpy as np
 import pytest
-from fake_driver import Array, FakeDriver
 
 import holdfast as hf
+from fake_driver import Array, FakeDriver, Reader, read
 from holdfast import arms, control, indices, kernels
 from holdfast.engine import Study, Threads
 from holdfast.errors import InputError, KernelError
 from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu import driver, launch, ptx
 from holdfast.studies import read as read_study
-
-
-@pytest.fixture
-def gpu(monkeypatch):
-    fake = FakeDriver()
-    monkeypatch.setattr(driver, "_bindings", lambda: fake)
-    monkeypatch.setattr(launch, "ptx_text", fake.ptx)
-    driver.device.cache_clear()
-    yield fake
-    kernels.set_backend(None)
-    if fake.live:
-        gc.collect()
-    assert not fake.live, "memory on the device that nobody gave back"
-    driver.device.cache_clear()
 
 
 def pair(backend):
@@ -110,53 +95,24 @@ def test_arrays_of_the_device_are_not_copied(gpu, rng):
     assert x.streams == y.streams == [77]
     for got, expected in zip((a, b, c), off(x.values, y.values, m.values), strict=True):
         assert got.__dlpack_device__() == (2, 0)
-        np.testing.assert_array_equal(read(got, gpu, stream=77), expected)
+        np.testing.assert_array_equal(read(got, stream=77), expected)
     assert not gpu.asked("cuStreamSynchronize")
-    read(a, gpu, stream=5)  # another stream must wait
+    read(a, stream=5)  # another stream must wait
     assert gpu.asked("cuStreamSynchronize") == [(("stream", 77),)]
     again = on.exchange(x, b, m)[1]  # results are inputs too
-    np.testing.assert_array_equal(read(again, gpu), off(x.values, off(x.values, y.values, m.values)[1], m.values)[1])
+    np.testing.assert_array_equal(read(again), off(x.values, off(x.values, y.values, m.values)[1], m.values)[1])
 
 
-class Reader:
-    """Takes a capsule as a framework on the processor would, and says so."""
-
-    def __init__(self, array, stream):
-        self.array, self.stream = array, stream
-
-    def __dlpack_device__(self):
-        return 1, 0
-
-    def __dlpack__(self, **_):
-        import ctypes
-
-        from holdfast.kernels.gpu import arrays
-
-        capsule = self.array.__dlpack__(stream=self.stream)
-        address = arrays._pointer(capsule, b"dltensor")
-        ctypes.c_int32.from_address(address + 8).value = 1  # the kind of its device
-        assert address in arrays._lent
-        return capsule
-
-
-def read(array, gpu, stream=1):
-    view = np.from_dlpack(Reader(array, stream))
-    assert view.ctypes.data == array.pointer  # shared
-    return view.copy()
-
-
-def test_capsules_that_nobody_takes_are_taken_back(gpu, rng):
-    from holdfast.kernels.gpu import arrays
-
+def test_capsules_give_the_memory_back_whatever_becomes_of_them(gpu, rng):
     out = pair("cuda").exchange(Array(rng.normal(size=(4, 3))), Array(rng.normal(size=4)), Array(rng.normal(size=(2, 3))))
-    capsule = out[0].__dlpack__()
-    assert len(arrays._lent) == 1
-    del capsule
-    assert not arrays._lent
-    view = np.from_dlpack(Reader(out[1], 1))
+    view, capsules = np.from_dlpack(Reader(out[1])), [out[0].__dlpack__()]
     del out
-    assert view.sum() == view.sum()  # its memory lives as long as it does
-    assert len(gpu.live) == 1
+    assert view.sum() == view.sum()
+    del view
+    assert len(gpu.live) == 1  # nobody has taken the capsule yet
+    with pytest.raises(ZeroDivisionError):
+        [capsules.pop(), 1 / 0]  # it ends while an exception is on its way
+    assert not gpu.live
 
 
 def test_what_cannot_be_exchanged_is_a_sentence(gpu, rng):

@@ -8,7 +8,8 @@ from __future__ import annotations
 import ctypes
 import math
 import struct
-from ctypes import c_int64, c_void_p, py_object, pythonapi
+from ctypes import c_char, c_int64, c_void_p, py_object, pythonapi
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -23,28 +24,11 @@ _CUDA = 2  # kDLCUDA
 _NAME = b"dltensor"
 
 
-# Of a tensor: data, kind and number of the device, axes, code, bits and lanes of the type, shape, strides, offset in bytes;
-# then what its owner keeps, and its end.
-_MANAGED = struct.Struct("PiiiBBHPPQPP")
+# Of a tensor: data, kind and number of the device, axes, code, bits and lanes of the type, shape, strides, offset in bytes.
+_TENSOR = struct.Struct("PiiiBBHPPQ")
+_DEVICE = 8  # bytes before the kind of the device
 _DOUBLE = [2, 64, 1]  # kDLFloat
-
-_new = ctypes.PYFUNCTYPE(py_object, c_void_p, ctypes.c_char_p, c_void_p)(("PyCapsule_New", pythonapi))
 _pointer = ctypes.PYFUNCTYPE(c_void_p, py_object, ctypes.c_char_p)(("PyCapsule_GetPointer", pythonapi))
-_is_valid = ctypes.PYFUNCTYPE(ctypes.c_int, c_void_p, ctypes.c_char_p)(("PyCapsule_IsValid", pythonapi))
-_pointer_of = ctypes.PYFUNCTYPE(c_void_p, c_void_p, ctypes.c_char_p)(("PyCapsule_GetPointer", pythonapi))
-_lent: dict[int, tuple[Any, ...]] = {}  # what others hold, by the address of its description
-
-
-def _forget(address: int) -> None:
-    _lent.pop(address, None)
-
-
-def _forget_untaken(capsule: int) -> None:
-    if _is_valid(capsule, _NAME):
-        _lent.pop(_pointer_of(capsule, _NAME), None)
-
-
-_release, _capsule_ends = ctypes.CFUNCTYPE(None, c_void_p)(_forget), ctypes.PYFUNCTYPE(None, c_void_p)(_forget_untaken)
 
 
 class DeviceArray:
@@ -86,14 +70,12 @@ class DeviceArray:
     def __dlpack__(self, *, stream: int | None = None, **_: Any) -> Any:
         if stream not in (self.stream, -1):  # another stream must not begin before this one is done
             self._memory.device.wait(self.stream)
-        axes = len(self.shape)
-        numbers = (c_int64 * (2 * axes))(*self.shape, *self.strides)
-        where, at, end = (_CUDA, self._memory.device.ordinal), ctypes.addressof(numbers), ctypes.cast(_release, c_void_p).value
-        tensor = _MANAGED.pack(self.pointer, *where, axes, *_DOUBLE, at, at + 8 * axes, 0, 0, end)
-        managed = ctypes.create_string_buffer(tensor, len(tensor))
-        address = ctypes.addressof(managed)
-        _lent[address] = managed, numbers, self._memory
-        return _new(address, _NAME, ctypes.cast(_capsule_ends, c_void_p))
+        # NumPy makes the capsule, which keeps the memory, and gives it back whatever becomes of it; it never looks at the data.
+        strides = tuple(8 * step for step in self.strides)
+        about = {"data": (self.pointer, False), "shape": self.shape, "strides": strides, "typestr": "=f8", "version": 3}
+        capsule = np.asarray(SimpleNamespace(__array_interface__=about, memory=self._memory)).__dlpack__()
+        struct.pack_into("ii", (c_char * 16).from_address(_pointer(capsule, _NAME)), _DEVICE, *self.__dlpack_device__())
+        return capsule
 
 
 class Lent:
@@ -119,8 +101,8 @@ class Lent:
         if where != (_CUDA, device.ordinal):
             raise InputError(f"an input is not an array on GPU {device.ordinal}: {type(array).__name__}, DLPack device {where}")
         self._capsule = array.__dlpack__(stream=stream)  # its end gives the array back
-        managed = ctypes.string_at(_pointer(self._capsule, _NAME), _MANAGED.size)
-        data, _, _, axes, *kind, at, strides_at, offset, _, _ = _MANAGED.unpack(managed)
+        tensor = ctypes.string_at(_pointer(self._capsule, _NAME), _TENSOR.size)
+        data, _, _, axes, *kind, at, strides_at, offset = _TENSOR.unpack(tensor)
         if kind != _DOUBLE:
             raise InputError(f"an input on the GPU has {kind[1]} bits of DLPack type {kind[0]}; give doubles")
         shape = tuple((c_int64 * axes).from_address(at)) if axes else ()

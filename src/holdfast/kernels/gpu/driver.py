@@ -128,8 +128,8 @@ class Memory:
     def __init__(self, device: Device, count: int) -> None:
         self.device, size = device, max(8 * count, 8)
         self.pointer = int(device.do(f"give {size / 2**20:.0f} MB", "cuMemAlloc", size))
-        free = device.do, "give memory back", "cuMemFree", self.pointer
-        weakref.finalize(self, *free).atexit = False  # the driver ends before Python does
+        end = weakref.finalize(self, device.do, "give memory back", "cuMemFree", self.pointer)
+        end.atexit = False  # the driver ends before Python does
 
     def put(self, array: NDArray[np.float64], stream: int, at: int = 0) -> None:
         """Copy a contiguous array there, from number ``at`` on."""

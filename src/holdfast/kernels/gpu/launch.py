@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from ctypes import c_double, c_int64, c_void_p
 from typing import Any
 
@@ -38,7 +38,7 @@ class OnDevice:
         self.program, self.device = program, device(ordinal)
         self._function = self.device.function(ptx_text(program, self.device.capability), NAME)
 
-    def _launch(self, function: Any, given: list[tuple[int, ...]], size: int, *, rows: int, stream: int, how: Any) -> Memory:
+    def _start(self, function: Any, given: Sequence[tuple[int, ...]], size: int, *, rows: int, stream: int, how: Any) -> Memory:
         """``size`` results of each row, column by column; inputs by address, and how far apart rows and columns are."""
         result = Memory(self.device, size * rows)
         if rows:
@@ -66,7 +66,7 @@ class OnDevice:
         there, rows = [DeviceArray.of(a, self.device) for a in arrays], max(map(len, arrays))
         given = [(x.pointer, a.shape[1] if len(a) > 1 else 0, 1) for x, a in zip(there, arrays, strict=True)]
         found = np.empty((size, rows))
-        self._launch(function, given, size, rows=rows, stream=LEGACY_STREAM, how=how).get(found, LEGACY_STREAM)
+        self._start(function, given, size, rows=rows, stream=LEGACY_STREAM, how=how).get(found, LEGACY_STREAM)
         return found
 
     def _parts(self, count: int, numbers: int) -> list[slice]:
@@ -83,7 +83,7 @@ class OnDevice:
             raise InputError(f"inputs on the GPU have {' and '.join(map(str, sorted(counts)))} rows; give one number of rows")
         rows = counts.pop() if counts else 1
         given = [(x.pointer, x.row, x.column) for x in lent]
-        result = self._launch(self._function, given, self.program.n_out, rows=rows, stream=stream, how=())
+        result = self._start(self._function, given, self.program.n_out, rows=rows, stream=stream, how=())
         made, at = [], 0
         for d, (r, c) in zip(dims[1], self.program.output_shapes, strict=True):
             inner = {0: (), 1: (rows,), 2: (c * rows, rows)}[len(d)]
