@@ -23,6 +23,7 @@ class FakeDriver:
 
     Attributes:
         calls: Names and arguments.
+        launched: Names of the programs that were launched.
         fails: Name of a function -> its status.
         live: Bytes of each address that was given out and not taken back.
     """
@@ -30,6 +31,7 @@ class FakeDriver:
     def __init__(self, capability=90, devices=2):
         self.capability, self.devices = capability, devices
         self.calls, self.fails, self.live, self.loaded, self.current, self.codes = [], {}, {}, {}, [], {}
+        self.launched = set()
         self.CUdevice_attribute = types.SimpleNamespace(
             CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR="major", CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR="minor"
         )
@@ -70,6 +72,7 @@ class FakeDriver:
     def launch(self, function, *rest):
         assert self.current, "no context is current"
         program, state = function
+        self.launched.add(program.name)
         values, kinds = rest[-2]
         name = program.digest, state
         if name not in self.codes:

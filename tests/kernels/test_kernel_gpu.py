@@ -8,14 +8,11 @@ import casadi as ca
 import numpy as np
 import pytest
 
-import holdfast as hf
 from fake_driver import Array, FakeDriver, Reader, read
-from holdfast import arms, control, indices, kernels
-from holdfast.engine import Study, Threads
+from holdfast import kernels
 from holdfast.errors import InputError, KernelError
 from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu import driver, launch, ptx
-from holdfast.studies import read as read_study
 
 
 def pair(backend):
@@ -38,6 +35,20 @@ def test_rows_are_those_of_the_processor(gpu, rng):
     assert arguments[0][1::3][:3] == (3, 1, 0)  # from row to row; one matrix serves all
     assert len(arguments[0]) == len(arguments[1]) == 13
     assert not gpu.current  # every context that was pushed was popped
+
+
+def test_a_gpu_takes_over_what_was_made_before_but_not_what_was_told_where_to_be(gpu, rng):
+    before, told = pair(None), pair("llvm")
+    given = rng.normal(size=(4, 3)), rng.normal(size=4), rng.normal(size=(2, 3))
+    expected = before(*given)
+    for name, launches in (("cuda:1", 1), ("llvm", 1), ("cuda", 2), (None, 2)):
+        kernels.set_backend(name)
+        for a, b, c in zip(before(*given), told(*given), expected, strict=True):
+            np.testing.assert_array_equal(a, c)
+            np.testing.assert_array_equal(b, c)
+        assert len(gpu.asked("cuLaunchKernel")) == launches
+        assert before.now().backend == (name if "cuda" in str(name) else "llvm")
+    assert [k for ((_, k),) in gpu.asked("cuDevicePrimaryCtxRetain")] == [1, 0]
 
 
 def test_large_batches_go_in_parts(gpu, rng, monkeypatch):
@@ -195,49 +206,3 @@ def test_a_machine_without_gpu_is_a_sentence(missing, monkeypatch):
             ask()
     driver._bindings.cache_clear()
     assert kernels.default_backend() in ("llvm", "casadi")
-
-
-STUDY = """
-seed: 7
-poses: 8
-chunk: 4
-arms: [planar-3r]
-assess: {indices: [manipulability], tasks: [planar], clearance: false}
-"""
-
-
-def test_the_backend_alone_brings_everything_to_the_device(gpu, tmp_path):
-    """Indices, laws, inverse kinematics, optimisation, closed loops, an assessment, a study: bits as on the processor."""
-    (tmp_path / "study.yaml").write_text(STUDY)
-
-    def outcome():
-        arm = arms.load("planar-3r")
-        rho, law = indices.relative_manipulability(arm, "planar"), control.by_name("damped:0.1", arm, task="planar")
-        q = np.random.default_rng(1).uniform(-2, 2, (12, 3))
-        poses = arm.forward_kinematics(q)
-        found = hf.solve_ik(arm, poses, task="planar", seed=3)
-        best = hf.optimise(arm, poses[:2], rho, seed=3)
-        runs = hf.simulate(law, q, poses[::-1], locked=[1], time_limit=5)
-        region = hf.Region.joints([-2, -2, -2], [2, 2, 2])
-        run = hf.assess(arm, region, rho, poses=8, seed=1)
-        asked = read_study(tmp_path / "study.yaml")
-        study = Study.create(tmp_path / kernels.default_backend(), asked.name, asked.seed, cells=asked.cells, source=asked.text)
-        assert study.run(asked.cells, Threads(1)) == {}
-        of_study = [study.store(0).read(k, ("index",))["index"] for k in range(2)]
-        return [
-            rho(q),
-            rho.gradient(q),
-            law.velocity(q, np.ones(2)),
-            found.q,
-            best.q,
-            runs.q_final,
-            *run.columns.values(),
-            *of_study,
-        ]
-
-    expected = outcome()
-    kernels.set_backend("cuda")
-    got = outcome()
-    for a, b in zip(got, expected, strict=True):
-        np.testing.assert_array_equal(a, b)
-    assert gpu.asked("cuLaunchKernel")

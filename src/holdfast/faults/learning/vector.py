@@ -102,7 +102,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         finite = [np.clip(limit, -NEVER, NEVER) for limit in (arm.lower, arm.upper)]
         self._limits = np.concatenate([*finite, speeds])
         self._goals, self._start = goals or self._random_goals, None if start is None else arm.check_configurations(start)
-        self._kernel = step_kernel(law)
+        self._kernel = step_kernel(law).now()
         self._on_gpu = self._kernel.backend.startswith("cuda")
         self.metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": []}
         self.single_action_space = Box(-1.0, 1.0, (n,), np.float64)
