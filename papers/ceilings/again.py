@@ -50,7 +50,7 @@ def table(stored: Path) -> list[str]:
         lines.append(f"| {n}, {m}, {k} | {row['found']:.10f} | {said} | {row['seed'] - SEEDS[0] + 1} | {row['seconds']:.1f} |")
         print(lines[-1], flush=True)
     return [
-        f"{again} of {len(lines)} sizes to 1e-7, with at most {len(SEEDS)} fresh seeds and {SECONDS:.0f} s of wall time in all:",
+        f"{again} of {len(lines)} sizes to 1e-7, with at most {len(SEEDS)} fresh seeds, {SECONDS:.0f} s of wall time in all:",
         "",
         "| joints, rows, lock | found | of the best known | seeds | seconds |",
         "|---|---|---|---|---|",
