@@ -186,7 +186,7 @@ def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_libra
         file.write_text(yaml.safe_dump(changed | {key: value}), encoding="utf-8")
         check = hf.designs.record(str(file)).check()
         assert any(said in claim for claim, holds in check.claims if not holds)
-    assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in (0, 5, 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
+    assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in ("00", "05", 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
 
 
 def test_a_record_in_mujoco(book):

@@ -104,6 +104,8 @@ def _sticks(axes: Axes, r: Record) -> None:
         axes.plot(*np.stack([place - half, place + half]).T, color=ORANGE, linewidth=1.6)
         axes.plot(*place, "o", color=ORANGE, markersize=3)
     axes.plot(*places[-1], "o", color=INK, markersize=5)
+    center = (places.max(axis=0) + places.min(axis=0)) / 2
+    for side, at in zip((axes.set_xlim, axes.set_ylim), center, strict=True):
+        side(at - 0.6 * width, at + 0.6 * width)
     axes.set_aspect("equal")
-    axes.margins(0.12)
-    axes.set_title(drawing.plain(f"{r.id}\n{width:.2g} m wide"), fontsize=8)
+    axes.set_title(f"{drawing.plain(r.id)}\n{width:.2g} m wide", fontsize=7)
