@@ -105,7 +105,7 @@ class Monitor:
 
     def reset(self) -> None:
         """Forget everything: the next step is the first."""
-        self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
+        self._cycle, self._at, self._fast, self._seen, self._seen_at = 0, 0, 0, 0, 0
         self._v = self._r = self._p = self._gravity = self._tau = self._low = np.zeros(self.arm.n)
         self._q: Array | None = None
         self._reference: Array | None = None
@@ -180,12 +180,12 @@ class Monitor:
 
     def _observe(self, q: Array, tau: Array | None) -> None:
         n, dt = self.arm.n, self._dt
-        first = self._q is None
+        first, elapsed = self._q is None, (self._cycle - self._at) * dt  # longer after cycles that were passed over
         if self._q is not None:
-            self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / dt - self._v)
+            self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / elapsed - self._v)
         elif tau is not None:
             self._tau = self._low = tau
-        self._q = q
+        self._q, self._at = q, self._cycle
         if tau is None or self._momentum is None:
             return
         self._tau = self._tau + min(1.0, BAND * dt) * (tau - self._tau)
@@ -193,5 +193,6 @@ class Monitor:
         p, energy, self._gravity = self._momentum(np.concatenate((q, self._v))).reshape(3, n)
         if not first:
             known = self._tau + energy - self._gravity - friction_torque(self._v, self.bounds.coulomb, self.bounds.viscous)
-            self._r = (1 - GAIN * dt) * self._r + GAIN * (p - self._p - dt * known)
+            gain = min(GAIN, 1 / elapsed)
+            self._r = max(0.0, 1 - GAIN * elapsed) * self._r + gain * (p - self._p - elapsed * known)
         self._p = p
