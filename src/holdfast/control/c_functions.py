@@ -51,7 +51,9 @@ def written(name: str, functions: Mapping[str, Function]) -> str:
     text = re.sub(r"int mem\) ?\{\n", "int mem) {\n  (void)iw; (void)w; (void)mem;\n", text)
     for k, (graph, (call, function)) in enumerate(zip(graphs, functions.items(), strict=True)):
         sizes = {out: graph.numel_out(i) for i, out in enumerate(function.outputs)}
-        given = ", ".join([f"const double *{x}" for x in function.inputs] + [f"double {x}[{size}]" for x, size in sizes.items()])
+        given = ", ".join(
+            [f"const double *{x}" for x in function.inputs] + [f"double {x}[{size}]" for x, size in sizes.items()]
+        )
         text += f"""
 static void {call}({given}) {{
     const double *arg[{max(graph.sz_arg(), len(function.inputs))}] = {{{", ".join(function.inputs)}}};
@@ -70,3 +72,9 @@ def filled(package: str, folder: str, file: str, words: Mapping[str, str]) -> st
     for word in sorted(words, key=len, reverse=True):
         text = text.replace(word, words[word])
     return text
+
+
+def commented(lines: Sequence[str]) -> str:
+    """Lines as a comment of C, in plain ASCII, that nothing in them ends."""
+    safe = [x.replace("*/", "* /").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
+    return "/*\n" + "\n".join(f" * {x}".rstrip() for x in safe) + "\n */"

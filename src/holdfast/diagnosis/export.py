@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.control.c_functions import Function, filled, written
+from holdfast.control.c_functions import Function, commented, filled, written
 from holdfast.control.export import check_name, quoted, version
 from holdfast.diagnosis import decision, kinds
 from holdfast.diagnosis.bounds import Bounds
@@ -194,5 +194,4 @@ def _about(arm: Arm, bounds: Bounds, name: str, digest: str) -> str:
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
         "Compile without -ffast-math.",
     ]
-    safe = [x.replace("*/", "* /").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
-    return "/*\n" + "\n".join(f" * {x}".rstrip() for x in safe) + "\n */"
+    return commented(lines)

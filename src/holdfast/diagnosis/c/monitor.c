@@ -37,11 +37,10 @@ static void rotation_vector(const double r[9], double out[3]) {
 }
 
 /* Rates, and the residual of the momentum. */
-static void observe(NAME_state *s, const double *q, const double *torque) {
+static void observe(NAME_state *s, const double *q, const double *torque, double h) {
 #if WITH_TORQUES
     double p[N], energy[N], known, keep, gain;
 #endif
-    const double h = (double)(s->cycle - s->at) * DT; /* longer after cycles without a sample */
     int k, first = !s->begun;
     for (k = 0; k < N; ++k) {
         if (first) {
@@ -263,15 +262,16 @@ void NAME_skip(NAME_state *s, long cycles) { s->cycle += cycles; }
 
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
                NAME_verdict *verdict) {
-    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0;
+    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0, h;
     int k, gated, look_now = 0;
     if (!WITH_TORQUES) torque = 0;
     s->cycle += 1;
     *verdict = s->verdict;
     if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) return;
-    observe(s, q, torque);
+    h = (double)(s->cycle - s->at) * DT; /* longer after cycles without a sample */
+    observe(s, q, torque, h);
     for (k = 0; k < N && s->referred; ++k)
-        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * DT) s->fast = s->cycle;
+        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * h) s->fast = s->cycle;
     gated = !torque && s->cycle - s->fast < CONST_CALM;
     for (k = 0; k < N; ++k) {
         s->reference[k] = reference[k];
