@@ -145,10 +145,11 @@ class Monitor:
             if tau is not None and np.isfinite(tau).all():
                 self._felt, self._known = self._felt + tau, self._known + 1
             return self.verdict
+        elapsed = (self._missed + 1) * self._dt  # longer after cycles that were passed over
         self._bridge(place, tau)
         self._observe(place, tau)
         z = np.abs(self._r) / self.bounds.torque
-        y = self._tracking(wanted, place, alone=tau is None)
+        y = self._tracking(wanted, place, elapsed, alone=tau is None)
         self._over_z = np.maximum(0.0, self._over_z + (z - 1) * self._dt)
         self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
         then = self._past[(self._cycle + 1) % len(self._past)]
@@ -187,9 +188,9 @@ class Monitor:
                 self._observe(start + k * step, None if tau is None else torque)
         self._missed, self._known, self._felt = 0, 0, np.zeros(len(q))
 
-    def _tracking(self, reference: Array, q: Array, *, alone: bool) -> Array:
+    def _tracking(self, reference: Array, q: Array, elapsed: float, *, alone: bool) -> Array:
         """In units of its bounds; with joint sensors alone NaN unless all references were slow for a while."""
-        if self._reference is not None and (np.abs(reference - self._reference) >= SLOW * self._dt).any():
+        if self._reference is not None and (np.abs(reference - self._reference) >= SLOW * elapsed).any():
             self._fast = self._cycle
         self._reference = reference
         if alone and self._cycle - self._fast < cycles(CALM, self._dt):

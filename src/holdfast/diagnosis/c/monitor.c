@@ -1,78 +1,3 @@
-"""The monitor as C99: what of it is the same for every arm. NAME, COUNT and the constants are filled in by `export`."""
-
-HEADER = """\
-#ifndef GUARD_H
-#define GUARD_H
-
-#define GUARD_JOINTS COUNT
-#define GUARD_RATE RATE_HZ
-/* Cycles by which a pose comes after it was taken. */
-#define GUARD_LATE LATE_CYCLES
-/* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
-#define GUARD_HOLDFAST "VERSION"
-#define GUARD_ARM "FINGERPRINT"
-#define GUARD_PARAMETERS "DIGEST"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-typedef enum {
-    GUARD_UNKNOWN, GUARD_LOCKED, GUARD_STANDSTILL, GUARD_LIMP, GUARD_WEAK, GUARD_FRICTION, GUARD_SLUGGISH, GUARD_SENSOR,
-    GUARD_CONTACT
-} NAME_kind;
-
-/* What is known: without an alarm the rest means nothing. joint: from 0, -1 if none is to blame or it is not known yet.
-   loss: fraction of its torque that the motor lost, -1 where that is not the question. */
-typedef struct {
-    int alarm;
-    double time;
-    int joint;
-    NAME_kind kind;
-    double loss;
-} NAME_verdict;
-
-/* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
-typedef struct {
-    double v[COUNT], r[COUNT], level[COUNT];
-    double over_z[COUNT], over_y[COUNT], over_w;
-    long cycle, fast, seen, seen_at, count, poses, some;
-    int begun, anew, missed, known, referred, alarmed, torques, tool, suspect, push, joint, told;
-    double past[GUARD_LATE + 1][COUNT], felt[COUNT];
-    double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
-    double size[COUNT], residual[COUNT], left[COUNT], gap;
-    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
-    NAME_verdict verdict;
-} NAME_state;
-
-extern const char *const NAME_joints[COUNT];
-
-/* Before the first cycle, and to forget everything. */
-void NAME_init(NAME_state *state);
-
-/* Forget the alarm and what led to it, while the arm goes on. */
-void NAME_rearm(NAME_state *state);
-
-/* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
-   q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
-   torque: commanded torques, N m and N, or NULL. pose: the tool's, measured GUARD_LATE cycles ago, (4, 4) by rows, or NULL. */
-void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
-               const double *pose, NAME_verdict *verdict);
-
-/* What has told no number for 50 ms: 1 joints (or torques), 2 the tool once it has been seen, 3 both, 0 nothing. */
-int NAME_stale(const NAME_state *state);
-
-/* A word for each kind. */
-const char *NAME_kind_name(NAME_kind kind);
-
-#ifdef __cplusplus
-}
-#endif
-
-#endif
-"""
-
-SOURCE = """\
 enum { N = COUNT, SMOOTHED = 5 };
 static const double DT = CONST_DT;
 
@@ -117,7 +42,8 @@ static void observe(NAME_state *s, const double *q, const double *torque) {
 /* Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled. */
 static void bridge(NAME_state *s, const double *q, const double *torque) {
     double start[N], between[N], felt[N];
-    int i, k;
+    long k;
+    int i;
     if (s->begun && s->missed > CONST_LONGEST) {
         s->begun = 0;
         s->anew = CONST_LONGEST + 1;
@@ -125,20 +51,20 @@ static void bridge(NAME_state *s, const double *q, const double *torque) {
     }
     for (i = 0; i < N; ++i) {
         start[i] = s->q[i];
-        felt[i] = s->known == s->missed && s->known > 0 ? s->felt[i] / s->known : s->torque[i];
+        felt[i] = s->known == s->missed && s->known > 0 ? s->felt[i] / (double)s->known : s->torque[i];
         s->felt[i] = 0;
     }
     for (k = 1; k <= s->missed && s->begun; ++k) {
-        for (i = 0; i < N; ++i) between[i] = start[i] + k * ((q[i] - start[i]) / (s->missed + 1));
+        for (i = 0; i < N; ++i) between[i] = start[i] + (double)k * ((q[i] - start[i]) / (double)(s->missed + 1));
         observe(s, between, torque ? felt : 0);
     }
     s->missed = s->known = 0;
 }
 
-/* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
-static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
-    double there[12], ends[3 * N], turn[9], mean[6] = {0}, w;
-    int i, j, k, some;
+/* How far the tool's measured pose is from where the joints have it, and the Jacobian column by column. */
+static void off_tool(const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
+    double there[12], ends[3 * N], turn[9];
+    int i, j, k;
     tool(q, there, jacobian, ends);
     for (i = 0; i < 3; ++i) {
         residual[i] = pose[4 * i + 3] - there[9 + i];
@@ -146,6 +72,13 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
             for (turn[3 * i + j] = 0, k = 0; k < 3; ++k) turn[3 * i + j] += pose[4 * i + k] * there[3 * j + k];
     }
     rotation_vector(turn, residual + 3);
+}
+
+/* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
+static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
+    double mean[6] = {0}, w;
+    int i, k, some;
+    off_tool(q, pose, residual, jacobian);
     for (i = 0; i < 6; ++i) s->last[s->seen % SMOOTHED][i] = residual[i];
     some = s->seen + 1 < SMOOTHED ? (int)s->seen + 1 : SMOOTHED;
     for (k = 0; k < some; ++k)
@@ -330,9 +263,15 @@ void NAME_init(NAME_state *s) {
     NAME_rearm(s);
 }
 
+void NAME_skip(NAME_state *s, long cycles) {
+    int k;
+    for (; cycles > 0; --cycles, s->missed += 1) /* a pose of these is not compared with anything */
+        for (s->cycle += 1, k = 0; k < N; ++k) s->past[s->cycle % (GUARD_LATE + 1)][k] = HUGE_VAL;
+}
+
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
                NAME_verdict *verdict) {
-    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, over_z = 0, over_y = 0, most = 0;
+    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, over_z = 0, over_y = 0, most = 0, h;
     const double *then;
     int k, gated, look_now = 0;
     if (!WITH_TORQUES) torque = 0;
@@ -346,10 +285,11 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         for (k = 0; k < N && torque && finite_all(torque, N); ++k) s->felt[k] += torque[k];
         return;
     }
+    h = (double)(s->missed + 1) * DT; /* longer after cycles without a sample */
     bridge(s, q, torque);
     observe(s, q, torque);
     for (k = 0; k < N && s->referred; ++k)
-        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * DT) s->fast = s->cycle;
+        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * h) s->fast = s->cycle;
     gated = !torque && s->cycle - s->fast < CONST_CALM;
     for (k = 0; k < N; ++k) {
         s->reference[k] = reference[k];
@@ -383,6 +323,21 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
     *verdict = s->verdict;
 }
 
+double NAME_joint_by_tool(const double q[COUNT], const double pose[16], int joint) {
+    double at[N], residual[6], jacobian[6 * N], along, size;
+    int i, k;
+    for (i = 0; i < N; ++i) at[i] = q[i];
+    for (k = 0; k < 3; ++k) {
+        off_tool(at, pose, residual, jacobian);
+        for (along = size = 0, i = 0; i < 6; ++i) {
+            along += residual[i] * jacobian[6 * joint + i];
+            size += jacobian[6 * joint + i] * jacobian[6 * joint + i];
+        }
+        at[joint] += along / larger(size, 1e-12);
+    }
+    return at[joint];
+}
+
 int NAME_stale(const NAME_state *s) {
     return (s->missed > CONST_LONGEST) + 2 * (s->seen > 0 && s->cycle - s->seen_at > CONST_LONGEST);
 }
@@ -391,4 +346,3 @@ const char *NAME_kind_name(NAME_kind kind) {
     static const char *const names[] = {KIND_WORDS};
     return names[kind];
 }
-"""
