@@ -1,4 +1,4 @@
-"""The tables of sections 4, 6 and 9 of the specification, at sizes that one chooses, and RESULTS.md."""
+"""The tables of sections 4, 6 and 9 of the specification on one arm, at sizes that one chooses: RECORDS-ARM.md."""
 
 from __future__ import annotations
 
@@ -12,64 +12,51 @@ from papers.faults import blind, healthy, probes, pushes, records
 from papers.faults.store import CALIBRATED, Store
 
 HERE = Path(__file__).parent
-
-
-def section(store: Store, chosen: argparse.Namespace) -> list[str]:
-    """What is measured on one arm."""
-    arm, bounds = store.arm, store.bounds(chosen.robots)
-    return [
-        f"## Faults in records, {arm.title}",
-        "",
-        f"Bounds: the largest residuals of {chosen.robots} other robots, {CALIBRATED:g} s each, times {bounds.factor:g}.",
-        "",
-        *records.table(store, bounds, chosen.robots, chosen.count),
-        *pushes.table(store, bounds, chosen.robots, chosen.pushes),
-        f"## False alarms, {arm.title}",
-        "",
-        *healthy.sentences(store, bounds, chosen.robots, plants=chosen.plants, hours=chosen.hours),
-        "",
-    ]
+SIZES = {  # and what they are when nothing else is asked for
+    "robots": (20, "robots that bounds are calibrated on"),
+    "plants": (20, "other robots that are watched in healthy motion"),
+    "hours": (0.1, "of healthy motion that is watched; 0: none"),
+    "count": (20, "faults of each kind"),
+    "pushes": (21, "pushes, the links in turn"),
+    "blind": (4, "files of logs for the command line; 0: none"),
+    "probes": (5, "configurations of self-motions; 0: none"),
+}
 
 
 def main() -> None:
-    """Make the tables and write RESULTS.md; what a run before has found is taken from the store."""
+    """Make the tables and write them; what a run before has found is taken from the store."""
     parser = argparse.ArgumentParser(prog="python -m papers.faults", description=__doc__)
-    parser.add_argument("--robots", type=int, default=20, help="robots that bounds are calibrated on")
-    parser.add_argument("--plants", type=int, default=20, help="other robots that are watched in healthy motion")
-    parser.add_argument("--hours", type=float, default=0.1, help="of healthy motion that is watched")
-    parser.add_argument("--count", type=int, default=20, help="faults of each kind")
-    parser.add_argument("--pushes", type=int, default=21, help="pushes, the links in turn")
-    parser.add_argument("--blind", type=int, default=4, help="files of logs for the command line")
-    parser.add_argument("--probes", type=int, default=5, help="configurations of self-motions")
-    parser.add_argument("--arms", default=["panda", "iiwa14"], nargs="+")
+    parser.add_argument("--arm", default="panda")
+    for name, (usual, what) in SIZES.items():
+        parser.add_argument(f"--{name}", type=type(usual), default=usual, help=what)
     parser.add_argument("--store", type=Path, help="folder of what was found: resumed, and added to")
     chosen = parser.parse_args()
-    stores = [Store(chosen.store, hf.arms.load(name)) for name in chosen.arms]
+    store = Store(chosen.store, hf.arms.load(chosen.arm))
+    arm, bounds = store.arm, store.bounds(chosen.robots)
     made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
-    options = " ".join(f"--{name} {getattr(chosen, name):g}" for name in ("robots", "plants", "hours", "count", "pushes"))
+    options = " ".join(f"--{name} {getattr(chosen, name):g}" for name in SIZES)
     lines = [
-        "# Faults in simulated records",
+        f"# Faults in simulated records, {arm.title}",
         "",
-        f"Written by `python -m papers.faults {options} --blind {chosen.blind} --probes {chosen.probes} --arms "
-        f"{' '.join(chosen.arms)}` on {datetime.now():%Y-%m-%d}; {made}. Everything is **simulated**.",
+        f"Written by `python -m papers.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d}; {made}. Everything is "
+        "**simulated**.",
         "",
         "Each record is of a robot of its own, whose masses and friction are up to 20 % off the model; joints swing to and fro "
-        f"at 0.25 to 0.5 rad/s, {records.LENGTH:g} s, 1000 samples a second, the tool's pose at 100 Hz (0.5 mm, 1 mrad). In "
+        f"at 0.25 to 0.5 rad/s, {records.LENGTH:g} s, 1000 samples a second, the tool's pose at 100 Hz (0.5 mm, 1 mrad). "
+        f"Bounds: the largest residuals of {chosen.robots} other robots, {CALIBRATED:g} s each, times {bounds.factor:g}. In "
         f"brackets: exact 95 % intervals (Clopper and Pearson). Seeds: calibration from 0, faults {records.DRAWS} (draws) and "
         f"from {records.SEEDS} (robots), pushes from {pushes.SEEDS}, healthy motion from {healthy.SEEDS}.",
         "",
+        *records.table(store, bounds, chosen.robots, chosen.count),
+        *pushes.table(store, bounds, chosen.robots, chosen.pushes),
     ]
-    for store in stores:
-        lines += section(store, chosen)
-    lines += [
-        "Beside the specification (its own spike, point-to-point motion under a control law): a lock 25 / 69 ms and 1.1 / 2.1 "
-        "mm, free-swinging 46 / 88 ms. A joint that is not asked to move, or carries next to nothing, is not found. "
-        "Sluggish: weak or more friction; where gravity is small nothing tells them apart.",
-        "",
-    ]
-    lines += blind.table(stores[0], chosen.blind)
-    lines += probes.table(stores[0], chosen.probes)
-    (HERE / "RESULTS.md").write_text("\n".join(lines), encoding="utf-8")
+    if chosen.hours:
+        lines += healthy.section(store, bounds, chosen.robots, plants=chosen.plants, hours=chosen.hours)
+    if chosen.blind:
+        lines += blind.table(store, chosen.blind)
+    if chosen.probes:
+        lines += probes.table(store, chosen.probes)
+    (HERE / f"RECORDS-{chosen.arm}.md").write_text("\n".join(lines), encoding="utf-8")
     print("\n".join(lines))
 
 

@@ -19,7 +19,7 @@ from papers.faults.records import KINDS, LENGTH
 from papers.faults.store import COULOMB, VISCOUS, Store
 
 RATE, EVERY = 200.0, 5  # Hz, of the logs; cycles of the simulation between their rows
-CALIBRATION, HOURS = 20, 20.0  # records, s of each
+CALIBRATION, SECONDS = 20, 20.0  # records, s of each
 LATE = 4  # rows by which every second log has the tool's pose too late, which the command is told
 SEEDS = 90_000
 FORMATS = ("npz", "csv", "parquet")
@@ -31,16 +31,13 @@ def thinned(log: Log, *, late: int = 0) -> Log:
     found = Log(**parts)
     if not late:
         return found
-    assert found.x is not None and found.quat is not None
-    moved = [np.concatenate([np.full((late, x.shape[1]), np.nan), x[:-late]]) for x in (found.x, found.quat)]
-    return replace(found, x=moved[0], quat=moved[1])
+    moved = (np.concatenate([np.full((late, parts[x].shape[1]), np.nan), parts[x][:-late]]) for x in ("x", "quat"))
+    return replace(found, **dict(zip(("x", "quat"), moved, strict=True)))
 
 
 def command(folder: Path, *words: str) -> str:
     """What ``holdfast`` prints; 3 is an alarm."""
-    done = subprocess.run(
-        [sys.executable, "-m", "holdfast", *words], cwd=folder, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run([sys.executable, "-m", "holdfast", *words], cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 3):
         raise RuntimeError(done.stderr)
     return done.stdout
@@ -50,7 +47,7 @@ def calibrated(arm: hf.Arm) -> str:
     """Bounds, as the text of their file."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
-        logs = hf.diagnosis.rehearse_many(arm, HOURS, seeds=range(SEEDS, SEEDS + CALIBRATION))
+        logs = hf.diagnosis.rehearse_many(arm, SECONDS, seeds=range(SEEDS, SEEDS + CALIBRATION))
         files = [thinned(log).save(folder / f"{k}.npz").name for k, log in enumerate(logs)]
         friction = ("--coulomb", str(COULOMB), "--viscous", str(VISCOUS))
         command(folder, "calibrate", *files, "--arm", arm.name, *friction, "--out", "bounds.json")
@@ -85,11 +82,11 @@ def table(store: Store, count: int) -> list[str]:
     wrong = [one for one in found if one not in silent and one not in right]
     unheard = ", ".join(f"{kind} {n}" for kind, n in Counter(one["kind"] or "healthy" for one in silent).items())
     lines = [
-        f"## Files of logs, {store.arm.title}",
+        "## Files of logs",
         "",
-        f"{count} logs of {RATE:g} Hz in {', '.join(FORMATS)} files, of robots of their own, through `holdfast diagnose` alone; "
-        f"every seventh healthy, the others with a fault of any kind of the table above; bounds by `holdfast calibrate` from "
-        f"{CALIBRATION} robots, {HOURS:g} s each. In every second log the tool's pose is {LATE / RATE * 1e3:g} ms late, and "
+        f"{count} logs of {RATE:g} Hz in {', '.join(FORMATS)} files, each of another robot, through `holdfast diagnose` alone; "
+        "every seventh healthy, the others with a fault of any kind of the table above; bounds by `holdfast calibrate` from "
+        f"{CALIBRATION} robots, {SECONDS:g} s each. In every second log the tool's pose is {LATE / RATE * 1e3:g} ms late, and "
         f"`--latency` says so.",
         "",
         f"Right joint or silence: {len(right) + len(silent)} of {count}: the joint right {len(right)}, silence {len(silent)} "

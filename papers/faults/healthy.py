@@ -28,8 +28,8 @@ def watched(arm: hf.Arm, bounds: hf.diagnosis.Bounds, robot: int, records: int) 
     return {"alarms": alarms, "largest": [round(float(x), 3) for x in largest]}
 
 
-def sentences(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, plants: int, hours: float) -> list[str]:
-    """What came of it."""
+def section(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, plants: int, hours: float) -> list[str]:
+    """What came of it: the first alarm of each motion is counted."""
     records = max(1, round(3600 * hours / plants / RECORD))
     found = [
         store.get(f"healthy {robots} {records} {k}", lambda k=k: watched(store.arm, bounds, k, records)) for k in range(plants)
@@ -38,7 +38,11 @@ def sentences(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, plants:
     some = sum(bool(one["alarms"]) for one in found)
     most = np.max([one["largest"] for one in found], axis=0)
     return [
-        f"{false} false alarms ({some} robots) in {hours:.4g} h: {plants} robots that were not calibrated on, {records} motions of "
-        f"{RECORD:g} s each. With 95 % confidence fewer than {chi2.ppf(0.95, 2 * false + 2) / (2 * hours):.3g} an hour. The "
-        f"largest residuals were {most[0]:.2f} (torques), {most[1]:.2f} (tracking) and {most[2]:.2f} (tool) of their bounds.",
+        "## False alarms",
+        "",
+        f"{false} in {hours:.4g} h of healthy motion ({some} robots with one): {plants} robots that were not calibrated on, "
+        f"{records} motions of {RECORD:g} s each. With 95 % confidence fewer than "
+        f"{chi2.ppf(0.95, 2 * false + 2) / (2 * hours):.3g} an hour, for this motion. The largest residuals were {most[0]:.2f} "
+        f"(torques), {most[1]:.2f} (tracking) and {most[2]:.2f} (tool) of their bounds.",
+        "",
     ]

@@ -31,9 +31,7 @@ def drawn(arm: hf.Arm, seed: int) -> hf.diagnosis.Push:
 def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, seeds: range) -> list[dict[str, Any]]:
     """What is said of some."""
     pushes = [drawn(arm, seed) for seed in seeds]
-    logs = hf.diagnosis.rehearse_many(
-        arm, LENGTH, seeds=[SEEDS + seed for seed in seeds], pushes=[[push] for push in pushes]
-    )
+    logs = hf.diagnosis.rehearse_many(arm, LENGTH, seeds=[SEEDS + seed for seed in seeds], pushes=[[push] for push in pushes])
     found = []
     for push, log in zip(pushes, logs, strict=True):
         verdict = hf.diagnosis.diagnose(arm, log, bounds).verdict
@@ -54,10 +52,11 @@ def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) ->
     """A line for each link, and one for all."""
     found = store.some(f"push {robots}", count, lambda seeds: judged(store.arm, bounds, seeds))
     lines = [
-        f"## Pushes on every link, {store.arm.title}",
+        "## Pushes on every link",
         "",
-        f"A force of {FORCE[0]:g} to {FORCE[1]:g} N in any direction, anywhere between a joint and the next, for {LASTS[0]:g} to "
-        f"{LASTS[1]:g} s; else as above. A force on the first link can load no row but the first, as a fault of that joint does.",
+        f"A force of {FORCE[0]:g} to {FORCE[1]:g} N in any direction, anywhere between a joint and the next, for "
+        f"{LASTS[0]:g} to {LASTS[1]:g} s; else as above. A force on the first link can load no row but the first, as a fault "
+        "of that joint does.",
         "",
         "| link | noticed | not blamed on a joint | delay, ms, median / 90 % | said |",
         "|---|---|---|---|---|",

@@ -28,8 +28,8 @@ class Verdict:
             ``sluggish`` (weak or more friction: where gravity is small both look alike), ``sensor`` (of the joint, or a clutch
             that slips), ``contact`` or ``unknown``.
         loss: Fraction of its torque that the motor lost; NaN where that is not the question.
-        uncertainty: By how much ``loss`` may be off while the residuals of a healthy arm stay within those of calibration: large
-            where the motor's torque is mostly friction, or the masses are not known.
+        uncertainty: By how much ``loss`` may be off while the residuals of a healthy arm stay within those of calibration:
+            large where the motor's torque is mostly friction, or the masses are not known.
         candidates: Kinds that remain possible.
         evidence: A phrase for each reason.
     """

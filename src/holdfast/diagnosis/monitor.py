@@ -79,7 +79,9 @@ class Monitor:
 
     def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], before: Array) -> Decision:
         watched = {"torques": "torque" in levels, "tool": "tool" in levels}
-        return Decision(self.arm, self.bounds, self.sensors, time=time, level=before, **watched, tool_alone=alarmed == ("tool",))
+        return Decision(
+            self.arm, self.bounds, self.sensors, time=time, level=before, **watched, tool_alone=alarmed == ("tool",)
+        )
 
     def _followed(self, log: Log, signals: Signals, scaled: Scaled, row: int, alarmed: tuple[str, ...]) -> Verdict:
         """What a record comes to after its alarm."""

@@ -131,7 +131,11 @@ def rehearse_many(
         faults: Events of each; None: healthy.
         pushes: Forces from outside of each.
         bodies: Seeds of what is off, one for each; None: ``seeds``.
-        speed, mismatch, coulomb, viscous, pose: As there.
+        speed: Of the references, rad/s and m/s, at most.
+        mismatch: Fraction by which masses and friction may be off.
+        coulomb: Dry friction of every joint, N m and N.
+        viscous: Viscous friction, N m s/rad and N s/m.
+        pose: Whether the tools' poses are measured.
 
     Raises:
         InputError: As there, or not one of something for each record.
