@@ -38,8 +38,8 @@ def main() -> None:
     lines = [
         f"# Faults in simulated records, {arm.title}",
         "",
-        f"Written by `python -m papers.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d}; {made}. Everything is "
-        "**simulated**.",
+        f"Written by `python -m papers.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d}; {made}. Everything "
+        "is **simulated**.",
         "",
         "Each record is of a robot of its own, whose masses and friction are up to 20 % off the model; joints swing to and fro "
         f"at 0.25 to 0.5 rad/s, {records.LENGTH:g} s, 1000 samples a second, the tool's pose at 100 Hz (0.5 mm, 1 mrad). "
