@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from textwrap import indent
 
 import numpy as np
 
 import holdfast as hf
-from holdfast.arms.dh_file import text
-from holdfast.designs.book.measuring import jacobian_of, least_left, null_space_of
 from holdfast.grammar import TASKS
 
 FOLDER = Path(__file__).parents[1] / "src/holdfast/designs/book/data"
@@ -30,22 +27,10 @@ def main() -> None:
             made = hf.designs.synthesise(c, task=task, starts=STARTS, seed=SEED)
             arm = made.arms[int(np.argmin(made.losses))]
             name = f"{task}-{n}R-k{k}-001"
-            table = hf.arms.dh_table(arm)
-            rows = [(r.a, r.alpha, r.d, r.theta) for r in table.rows]
-            value = least_left(null_space_of(jacobian_of(rows, table.tool[:3, 3], np.zeros(n))[: c.m]), k)
-            (FOLDER / f"{name}.yaml").write_text(
-                f"id: {name}\n"
-                f"class: {{task: {task}, rows: {c.m}, joints: {n}, failures: {k}, quantity: relative-manipulability, "
-                "conditions: [revolute, one configuration]}\n"
-                f"value: {value!r}\n"
-                f"proven_bound: {{value: {c.bound!r}, by: {c.bound_by}}}\n"
-                f'found: {{by: holdfast, date: "2026-11-25", how: "synthesise, {STARTS} starts, seed {SEED}; '
-                f'{c.best_known:.12g} before rounding"}}\n'
-                f"arm:\n{indent(text(table, name), '  ')}"
-                f"at: home\ncheck: {{command: holdfast records check {name}, tolerance: 1.0e-9}}\nlicence: CC0-1.0\n",
-                encoding="utf-8",
-            )
-            print(name, value, c.best_known)
+            how = f"synthesise, {STARTS} starts, seed {SEED}; {c.best_known:.12g} before rounding"
+            record = hf.designs.new_record(arm, task, k, name=name, by="holdfast", how=how)
+            (FOLDER / f"{name}.yaml").write_text(record.text, encoding="utf-8")
+            print(name, record.data.value, c.best_known)
 
 
 if __name__ == "__main__":

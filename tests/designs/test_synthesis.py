@@ -6,8 +6,8 @@ import yaml
 
 import holdfast as hf
 from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
+from holdfast.designs.judging.orders import distinct_orders
 from holdfast.designs.synthesis.axes import axes_of, poses_of
-from holdfast.designs.synthesis.orders import distinct_orders
 
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 

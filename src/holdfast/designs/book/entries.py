@@ -250,6 +250,8 @@ class RecordCheck(Result):
             more = self.record.data.value / current.data.value - 1
             compared = "beats" if more > 1e-9 else "does not beat"
             lines.append(f"{compared} {current.id}: {100 * more:+.2g} %")
+        if self.ok and current is None:
+            lines.append("the first of its class")
         return lines
 
 
@@ -300,10 +302,15 @@ def read(path: Path) -> Record:
     Raises:
         InputError: It cannot be read, is no record, or holds neither an arm nor a null space.
     """
-    return _record(yaml.content(path, "holdfast.designs.book.entries", "id"), path.read_text(encoding="utf-8"), path.name)
+    return of_content(yaml.content(path, "holdfast.designs.book.entries", "id"), path.read_text(encoding="utf-8"), path.name)
 
 
-def _record(content: Any, text: str, name: str) -> Record:
+def of_content(content: Any, text: str, name: str) -> Record:
+    """The record that a file says, from what was read of it, its text, and its name for messages.
+
+    Raises:
+        InputError: It is no record.
+    """
     try:
         data = RecordFile.model_validate(content)
     except ValidationError as error:
@@ -328,4 +335,4 @@ def _bare(c: Ceiling) -> Record:
         "check": {"command": f"holdfast records check {name}", "tolerance": 1e-9},
         "licence": "CC0-1.0",
     }
-    return _record(content, "".join(f"{key}: {json.dumps(value)}\n" for key, value in content.items()), name)
+    return of_content(content, "".join(f"{key}: {json.dumps(value)}\n" for key, value in content.items()), name)
