@@ -41,6 +41,7 @@ RESULTS = named(
         "engine": "Merged Study Verification",
         "diagnosis": "Bounds Diagnosis ExportedMonitor Finding Observability Probe",
         "faults": "FaultBatch",
+        "reaction": "ExportedController",
         "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "WaypointCheck WhatIsLeft",
         "solvers": "SelfMotion",

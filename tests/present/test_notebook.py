@@ -146,7 +146,7 @@ WITHOUT_FIGURE |= {
     "RecordCheck",
     "Synthesis",
 }
-WITHOUT_FIGURE |= {"ManipulabilityBound", "Refutation", "StructuralZero", "WaypointCheck"}
+WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "Bounds",

@@ -49,7 +49,7 @@ class Brakes(Protocol):
         ...
 
     def release(self, joint: str) -> None:
-        """Let it go again."""
+        """Release it again."""
         ...
 
 
@@ -281,7 +281,7 @@ class Controller:
             rows[:, j] += (c * along).sum() / max(float((along**2).sum()), 1e-12)
         off = float(np.mean([row[j] - q[j] for row, (q, _) in zip(rows, self._poses, strict=True)]))
         if abs(off) > SLACK:
-            self._true[int(j)] = float(rows[-1, j])
+            self._true[int(j)] = float(rows[:, j].mean())  # it stands, whatever its sensor does
             factor, unit = self.arm.joints[int(j)].shown
             why = f"by the tool's pose it is {factor * off:.3g} {unit} off what its sensor says"
             self._act(time, "measure", why, joint=self.arm.joint_names[int(j)])
