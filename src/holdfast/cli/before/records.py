@@ -62,7 +62,7 @@ def new(
 ) -> None:
     """Print an arm as a record: a file to check, to keep and to submit.
 
-    Example: holdfast records new planar-3r --task planar
+    Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
     """
     model = read_arm(arm, None, None)
     q = None if at is None else read_configuration(model, at, False, "--at")
