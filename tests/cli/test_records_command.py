@@ -68,7 +68,10 @@ def test_a_search_for_a_new_record(tmp_path, cli):
     at = hf.designs.new_record(model, "planar", 2, q=[0.1, 0.2, 0.3, 0.4, 0.5])
     assert at.data.value == pytest.approx(index(at.q), rel=1e-9)
     assert at.check().ok
-    for wrong, said in ((("ur5-rail",), "has prismatic joints"), (("panda", "--task", "pointing"), "records are of tasks")):
+    for wrong, said in (
+        (("planar-3r", "--task", "planar"), "is singular for task planar"),
+        (("panda", "--task", "pointing"), "records are of tasks"),
+    ):
         assert said in cli("records", "new", *wrong)[2]
     both = json.loads(cli("ceiling", "4", "2", "1", "--search", "0.1", "--arm", str(arm), "--json")[1])
     assert len(both) == 2
