@@ -19,6 +19,7 @@ def proved(
     claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, report: Path | None = None, **how: Any
 ) -> None:
     """Search, write, check, draw, print."""
+    from holdfast.certificates import PathProof
     from holdfast.present.certificates.console import state
 
     bar = progress_bar(as_json, "ten-thousandths")
@@ -32,7 +33,7 @@ def proved(
         raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
+    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound | PathProof) and proof.refuted:
         raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)

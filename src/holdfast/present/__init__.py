@@ -37,6 +37,7 @@ PRESENTERS = {
     "FaultBatch": ("faults.console", ""),
     "FaultRun": ("reaction.console", "reaction.page"),
     "FreeSwing": ("physics.swing", "physics.swing"),
+    "Judgement": ("designs.judged", ""),
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
     "LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
