@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.certificates.claims import ROWS, need_turning
-from holdfast.certificates.tool_paths.forms import SEGMENT
+from holdfast.certificates.tool_paths.cells import SEGMENT
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 

@@ -17,10 +17,12 @@ from numpy.typing import NDArray
 from holdfast.certificates.claims import ROWS
 from holdfast.certificates.crew import Stop
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tool_paths.cells import SEGMENT
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.forms import SEGMENT, Following
-from holdfast.certificates.tool_paths.march import March, Slab
+from holdfast.certificates.tool_paths.forms import Following
+from holdfast.certificates.tool_paths.march import March
 from holdfast.certificates.tool_paths.rings import Never, rings_of
+from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.tree import SearchState
 from holdfast.engine.memory import Parts
 

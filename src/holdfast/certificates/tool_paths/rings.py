@@ -17,8 +17,9 @@ from holdfast.certificates.claims import ROWS
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index
 from holdfast.certificates.joint_boxes.segments import Segment, points_on_axes
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tool_paths.cells import SEGMENT, Ints
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.forms import SEGMENT, Following, Ints
+from holdfast.certificates.tool_paths.forms import Following
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -126,9 +127,9 @@ class Rings:
             if counts.any():
                 found.append((int(counts.sum()), counts.tobytes(), (i, j)))
         pairs, seen = list[tuple[int, int]](), list[bytes]()
-        for _, counts, pair in sorted(found, key=lambda one: (one[0], one[1])):
-            if seen.count(counts) < _ALIKE and len(pairs) < _MOST:
-                seen.append(counts)
+        for _, which, pair in sorted(found, key=lambda one: (one[0], one[1])):
+            if seen.count(which) < _ALIKE and len(pairs) < _MOST:
+                seen.append(which)
                 pairs.append(pair)
         return points, pairs
 

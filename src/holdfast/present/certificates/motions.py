@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.certificates.tool_paths.forms import SEGMENT
-from holdfast.certificates.tool_paths.march import LockedPath, Slab
+from holdfast.certificates.tool_paths.cells import SEGMENT
+from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.proof import PathProof
+from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.verifier import per_cent
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
