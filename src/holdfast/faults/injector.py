@@ -23,7 +23,8 @@ from holdfast.faults.scheme import Faults, Jointed, names_of
 Array = NDArray[np.float64]
 
 EARLY = 1e-9  # s: what begins at a step's time is not left to the next one
-SLACK = 1e-9  # rad or m to either side of a lock
+OVERLAP = 1e-3  # rad or m that a lock's two limits overlap: both act at every step, not one after it was passed
+_HEAVY = 1e6  # of a locked joint's inertia a time step: its damping where MuJoCo integrates damping implicitly
 _FAR = 1e9  # rad or m: a stop where there is none
 _STIFF = 2.0  # time steps: the shortest time constant that MuJoCo's contacts keep stable
 _IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
@@ -42,6 +43,7 @@ class _Active:
     place: float
     since: float
     pending: bool = False  # a lock that waits for its angle
+    still: bool = False  # a joint that was stopped where it is held
     command: Array | None = None
 
 
@@ -50,8 +52,9 @@ class FaultInjector:
 
     The caller's loop is ``reset(episode)``, then before each step ``before_step(time)``, after the controller has written
     ``data.ctrl``; a controller that should see sensor faults takes its joint values from ``read``. A locked joint is held by
-    a pair of limits around where it is, and its momentum goes into the others as in an impact without rebound, unless the
-    model has active equality constraints.
+    a pair of limits that overlap there, and its momentum goes into the others as in an impact without rebound, unless the
+    model has active equality constraints. MuJoCo's implicit damping comes after its constraints and would move the joint by
+    what the others' damping gives: the joint gets so much of its own that it does not.
 
     Args:
         model: ``mujoco.MjModel``; its joints are hinges or slides.
@@ -92,6 +95,9 @@ class FaultInjector:
                 raise InputError(f"the model has no hinge or slide '{name}'; give the names of joints that it has")
         self._qpos, self._dofs = model.jnt_qposadr[self._ids], model.jnt_dofadr[self._ids]
         self._motors = Actuators(mujoco, model, self._ids)
+        implicit = [int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")]
+        off = sum(int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0)) for name in ("EULERDAMP", "DAMPER", "PASSIVE"))
+        self._damped = model.opt.integrator in implicit and not model.opt.disableflags & off
         self._saved: list[tuple[str, Any, Any]] = []
         self.events = FaultEvents()
         self.applied: dict[FaultEvent, float] = {}
@@ -153,6 +159,12 @@ class FaultInjector:
         one = _Active(event, j, float(self.data.qpos[self._qpos[j]]), self.time)
         self._stop(one)
         self._brakes.append(one)
+        self._apply()
+
+    def release(self, joint: str) -> None:
+        """Let go of a joint that was braked."""
+        j = self.joints.index(joint)
+        self._brakes = [one for one in self._brakes if one.joint != j]
         self._apply()
 
     def before_step(self, time: float) -> None:
@@ -259,9 +271,11 @@ class FaultInjector:
         match one.event.kind:
             case "locked" | "slipping_clutch" if not one.pending:
                 m.jnt_limited[k] = 1
-                m.jnt_range[k] = one.place - SLACK, one.place + SLACK
+                m.jnt_range[k] = one.place + OVERLAP, one.place - OVERLAP
                 m.jnt_solref[k] = _STIFF * m.opt.timestep, 1.0
                 m.jnt_solimp[k] = _IMPEDANCE
+                if one.still and self._damped:
+                    m.dof_damping[dof] = _HEAVY * m.dof_M0[dof] / m.opt.timestep
             case "limp":
                 m.jnt_actfrclimited[k], m.jnt_actfrcrange[k] = 1, (0.0, 0.0)
             case "weak" if "gain" in numbers:
@@ -303,7 +317,10 @@ class FaultInjector:
     def _stop(self, one: _Active) -> None:
         """Stop a joint and those that are held already as in an impact: the momenta of all others are kept."""
         velocity = self.data.qvel
-        if not velocity.any() or (self.model.neq and self.data.eq_active.any()):
+        if self.model.neq and self.data.eq_active.any():
+            return
+        one.still = one.place == self.data.qpos[self._qpos[one.joint]]
+        if not velocity.any():
             return
         still = (*self._active, *self._brakes)
         held = {self._dofs[a.joint] for a in still if a.event.kind in _HOLDS and not a.pending}

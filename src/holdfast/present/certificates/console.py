@@ -14,7 +14,7 @@ from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier import per_cent
 from holdfast.present import results
-from holdfast.present.certificates import slices
+from holdfast.present.certificates import joint_boxes, slices
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
 
@@ -69,7 +69,9 @@ def _lock(check: CertificateCheck) -> str:
 
 def story(found: Found | StructuralZero) -> Story:
     """What its page says."""
-    return slices.story(found) if isinstance(found, Proof | TolerantProof) else results.story(found)
+    if isinstance(found, Proof | TolerantProof):
+        return slices.story(found)
+    return joint_boxes.story(found) if isinstance(found, Refutation | ManipulabilityBound) else results.story(found)
 
 
 def next_steps(found: Found | StructuralZero, name: str) -> list[str]:

@@ -1,0 +1,49 @@
+"""The task and its faults: Pusher-v5, when it is done, and what may fail during an episode."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from holdfast import faults
+
+NAME = "Pusher-v5"
+STEPS, PERIOD = 100, 0.05  # of an episode; s
+NEAR = 0.05  # m
+ONSET = (0.3, 1.5)  # s
+
+JOINTS = (
+    "r_shoulder_pan_joint",
+    "r_shoulder_lift_joint",
+    "r_upper_arm_roll_joint",
+    "r_elbow_flex_joint",
+    "r_forearm_roll_joint",
+    "r_wrist_flex_joint",
+    "r_wrist_roll_joint",
+)
+
+
+def kinds(onset: tuple[float, float] = ONSET, probability: float = 1.0) -> dict[str, faults.Fault]:
+    """Each kind of fault, on any joint of the arm; motors give at most 2 N m, and joints move at up to some 5 rad/s."""
+    when: Any = {"onset": onset, "probability": probability}
+    return {
+        "locked": faults.locked(JOINTS, **when),
+        "limp": faults.limp(JOINTS, **when),
+        "weak": faults.weak(JOINTS, gain=(0.2, 0.7), **when),
+        "friction": faults.friction(JOINTS, coulomb=(0.3, 1.5), **when),
+        "reduced_range": faults.reduced_range(JOINTS, travel=(0.02, 0.3), **when),
+        "reduced_speed": faults.reduced_speed(JOINTS, velocity=(0.2, 0.6), **when),
+        "sensor_bias": faults.sensor_bias(JOINTS, bias=(0.05, 0.5), **when),
+        "sensor_drift": faults.sensor_drift(JOINTS, rate=(0.05, 0.5), **when),
+        "sensor_freeze": faults.sensor_freeze(JOINTS, **when),
+        "sensor_noise": faults.sensor_noise(JOINTS, deviation=(0.05, 0.5), **when),
+        "command_dropout": faults.command_dropout(JOINTS, **when),
+        "slipping_clutch": faults.slipping_clutch(JOINTS, **when),
+    }
+
+
+def off(env: Any) -> float:
+    """How far the object is from the goal on the table, m: the goal lies 48 mm lower, so heights do not count."""
+    data = env.unwrapped.data
+    return float(np.linalg.norm((data.body("object").xpos - data.body("goal").xpos)[:2]))
