@@ -97,7 +97,8 @@ def story(found: PathProof) -> Story:
     if found.tolerant:
         rest = "nothing is undecided" if found.tolerant == 1 else "the rest is undecided for some lock"
         broken = [_name(found, part) for part in found.parts if part.refuted]
-        rest += f", of {', '.join(broken)} partly refuted" if broken else ""
+        if broken:
+            rest = f"of the rest, some is refuted for locks of {', '.join(broken)}"
         answer = (
             f"Whichever joint locks, at {share} of the instants the {claim.task} path{tube} is proved to be finished; {rest}."
         )
@@ -105,7 +106,7 @@ def story(found: PathProof) -> Story:
         f"What {claim.arm.name} finishes after a lock",
         f"{answer} Found by the prover, not yet verified.",
         lines=[found.document["claim"]],
-        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, each glued to the next")],
+        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, glued to the next or without a configuration")],
         figures={
             "slices": (
                 "When it may lock",
@@ -176,9 +177,9 @@ def _panel(axes: Axes, found: PathProof, part: LockedPath) -> None:
         """The path behind intervals of lock instants."""
         return [[(a, a), (end, a), (end, b), (b, b)] for a, b in ((x / SEGMENT, y / SEGMENT) for x, y in spans)]
 
-    axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="none"))
-    axes.add_collection(PolyCollection(turned, facecolor=BLUE, edgecolor="none"))
-    axes.add_collection(PolyCollection(behind(part.refuted_spans), facecolor=ORANGE, edgecolor="none"))
+    axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="face", linewidth=0.2))
+    axes.add_collection(PolyCollection(turned, facecolor=BLUE, edgecolor="face", linewidth=0.2))
+    axes.add_collection(PolyCollection(behind(part.refuted_spans), facecolor=ORANGE, edgecolor="face", linewidth=0.2))
     axes.add_collection(PolyCollection(behind(found.gaps(part)), facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3))
     axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
     axes.plot([0, end], [0, end], color=INK, linewidth=0.8)
