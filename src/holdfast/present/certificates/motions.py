@@ -106,7 +106,7 @@ def story(found: PathProof) -> Story:
         f"What {claim.arm.name} finishes after a lock",
         f"{answer} Found by the prover, not yet verified.",
         lines=[found.document["claim"]],
-        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, glued to the next or without a configuration")],
+        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, each glued to the next, or empty")],
         figures={
             "slices": (
                 "When it may lock",
