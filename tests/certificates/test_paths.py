@@ -348,14 +348,19 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 # ---- bounds ----------------------------------------------------------------------------------------------------------
 
 
+def between(faults, q, goal):
+    """The verifier's form of the error at q from where the tool is at another configuration."""
+    at, wanted = (faults.chain.moved(list(map(verifier.motions.exactly, x[:, None]))) for x in (q, goal))
+    return (x[0, : faults.m] for x in faults.rows.between(at, wanted))
+
+
 def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     """Against differences of what the file says, by scipy's rotations."""
     driven = Driven(moved.write(tmp_path / "a.certificate"))
     faults = verifier.motions.Faults(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
-    balls = verifier.motions.Balls
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x[0] for x in faults.expanded(balls(q[None]), balls(h[None])))
+        error, first, second = between(faults, q, h)
 
     def missed(move):
         place, turn, _ = driven.tool(q + move[:7])
@@ -385,7 +390,7 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     following = Following(chain, proof.claim.knots, 6, [1], np.empty(0), np.column_stack([panda.lower, panda.upper]))
     q, goal = START[None] + 0.01, START[None]
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x.at[0] for x in faults.expanded(verifier.motions.Balls(q), verifier.motions.Balls(goal)))
+        error, first, second = (x.at for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
         now = following.missed(following.moved(q + ours), following.moved(goal + theirs))[0][0]

@@ -86,7 +86,7 @@ def _by(check: CertificateCheck | None) -> list[str]:
     if check is None:
         return ["nobody yet", ""]
     by = "verifier.py" if check.ok else f"not: {check.rejected:,} rejected" if check.rejected else "sampled"
-    return [by, f"{check.seconds:.1f}"]
+    return [by, f"{check.seconds:.1f}" if check.seconds else ""]
 
 
 def _name(found: Found, part: Found | LockedPath) -> str:
