@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.certificates.claims import ROWS
 from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.cells import SEGMENT, UNIT, Cells, Forms
 
@@ -35,17 +36,23 @@ class Following:
     Args:
         chain: The arm.
         knots: (K + 1, n) of the healthy motion, rad.
-        m: Rows: 2, 3 or 6.
+        task: What of the tool follows.
         still: The locked joint, then those that go on with the healthy motion.
         tube: (m,) half widths, m and rad; or none, (0,).
-        limits: (n, 2) rad.
+        limits: (n, 2) rad and m.
+        slides: (n,) which joints slide.
     """
 
-    def __init__(self, chain: Chain, knots: Array, m: int, still: list[int], tube: Array, limits: Array) -> None:
-        self.chain, self.knots, self.m, self.still, self.tube, self.limits = chain, knots, m, still, tube, limits
-        self.n = knots.shape[1]
+    def __init__(
+        self, chain: Chain, knots: Array, task: str, *, still: list[int], tube: Array, limits: Array, slides: Flags
+    ) -> None:
+        self.chain, self.knots, self.still, self.tube, self.limits = chain, knots, still, tube, limits
+        self.n, self.slides, self._rows = knots.shape[1], slides, ROWS[task]
+        self.m = len(self._rows)
+        self.rotated = self._rows[-1] > 2
         self.free = [k for k in range(self.n) if k not in still]
-        self._linear = min(3, m)
+        self._linear = sum(row < 3 for row in self._rows)
+        self._turns = np.tile(~slides, 2).astype(float)
 
     def healthy(self, twice: Ints, end: Ints) -> tuple[Array, Array]:
         """Joints of the healthy motion at half of ``twice``, and rates over the segments that end there."""
@@ -89,7 +96,8 @@ class Following:
         second = self._bent(at, target, d)
         left = np.abs(slopes @ d - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1))
         half = np.concatenate([cells.half, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
-        given = _Bounds(error, np.abs(d), left, np.abs(second), np.einsum("nacc->nac", second))
+        out = np.concatenate([q, goal], axis=1)
+        given = _Bounds(error, np.abs(d), left, np.abs(second), np.einsum("nacc->nac", second), np.abs(out) * (1 - self._turns))
         closed, far, angle = self._closed(given, half)
         s = half[:, -m:]
         only, one = np.zeros_like(s), np.zeros(len(q), dtype=bool)
@@ -104,7 +112,7 @@ class Following:
         reach = 1.001 * far[:, self.free] + 1e-7
         closed &= (s < _ROOM * only).all(axis=1)
         good = closed & one & ((q[:, self.free] - reach >= low) & (q[:, self.free] + reach <= high)).all(axis=1)
-        if m > 3:
+        if self.rotated:
             good &= (angle < _TURN) & (np.einsum("nij,nij->n", at[1], target[1]) > _STRAIGHT)
         place = (cells.start + cells.end) / (2 * SEGMENT)
         if (some := np.flatnonzero(turned)).size:
@@ -214,7 +222,7 @@ class Following:
     # ---- kinematics --------------------------------------------------------------------------------------------
 
     def moved(self, q: Array) -> tuple[Array, Array, Array, Array]:
-        """Place and rotation of the tool, axes (N, n, 3), and how the place follows the joints (N, n, 3)."""
+        """Place and rotation of the tool, axes that turn it (N, n, 3), and how the place follows the joints (N, n, 3)."""
         count, sine, cosine = len(q), np.sin(q), np.cos(q)
         place, turn = np.zeros((count, 3)), np.tile(np.eye(3), (count, 1, 1))
         axes, points = np.empty((2, count, self.n, 3))
@@ -224,34 +232,37 @@ class Following:
             x, y, z = (rows @ self.chain.rotations[k]).reshape(count, 3, 3).transpose(2, 0, 1)
             axes[:, k], points[:, k] = z, place
             s, c = sine[:, [k]], cosine[:, [k]]
+            if self.slides[k]:
+                place, s, c = place + z * q[:, [k]], np.zeros_like(s), np.ones_like(c)
             turn = np.empty((count, 3, 3))
             turn[:, :, 0], turn[:, :, 1], turn[:, :, 2] = c * x + s * y, c * y - s * x, z
         place = place + turn @ self.chain.origins[self.n]
-        return place, turn @ self.chain.rotations[self.n], axes, np.cross(axes, place[:, None] - points)
+        spin, along = axes * ~self.slides[:, None], axes * self.slides[:, None]
+        return place, turn @ self.chain.rotations[self.n], spin, np.cross(spin, place[:, None] - points) + along
 
     def missed(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
         """Error (N, m) and its slopes by the arm's joints (N, m, n)."""
         error, slope = at[0] - target[0], at[3].transpose(0, 2, 1)
-        if self.m > 3:
+        if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
             error = np.concatenate([error, _axial(off)], axis=1)
             slope = np.concatenate([slope, _onto(off) @ at[2].transpose(0, 2, 1)], axis=1)
-        return error[:, : self.m], slope[:, : self.m]
+        return error[:, self._rows], slope[:, self._rows]
 
     def _theirs(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
         """Slopes (N, m, n) by the healthy arm's joints."""
         slope = -target[3].transpose(0, 2, 1)
-        if self.m > 3:
+        if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
             slope = np.concatenate([slope, -_onto(off) @ off @ target[2].transpose(0, 2, 1)], axis=1)
-        return slope[:, : self.m]
+        return np.asarray(slope[:, self._rows])
 
     def _bent(self, at: tuple[Array, ...], target: tuple[Array, ...], d: Array) -> Array:
         """Second derivatives (N, m, c, c) along the columns of d."""
         n, ours, theirs = self.n, d[:, : self.n], d[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
         both = _twice(at[2], at[3], ours) - _twice(target[2], target[3], theirs)
-        if self.m > 3:
+        if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
             axes = np.concatenate([at[2], -(off[:, None] @ target[2][..., None])[..., 0][:, ::-1]], axis=1)
             moves = np.concatenate([ours, theirs[:, ::-1]], axis=1)
@@ -261,15 +272,17 @@ class Following:
             later = _onto(turned.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(len(off), 2 * n, 3, 3)
             half = np.einsum("nkri,nkai,nkb->nrab", later, last, moves, optimize=True)
             both = np.concatenate([both, half + half.transpose(0, 1, 3, 2)], axis=1)
-        return both[:, : self.m]
+        return np.asarray(both[:, self._rows])
 
     # ---- bounds ------------------------------------------------------------------------------------------------
 
-    def _third(self, far: Array) -> Array:
-        """(N, m) what is left behind the second order."""
-        ours, theirs = np.cumsum(far[:, : self.n], axis=1), np.cumsum(far[:, self.n :], axis=1)
-        place = ((ours**3 + theirs**3) * self.chain.lengths).sum(axis=1) / 6
-        turn = far.sum(axis=1) ** 3 / 6
+    def _third(self, far: Array, out: Array) -> Array:
+        """(N, m) what is left behind the second order; ``out`` (N, 2n): how far slides are."""
+        place, slid = np.zeros(len(far)), far * (1 - self._turns)
+        for chain in (slice(0, self.n), slice(self.n, None)):
+            c, most = np.cumsum((far * self._turns)[:, chain], axis=1), self.chain.lengths + (out + slid)[:, chain]
+            place += (c**3 * most + 3 * c**2 * slid[:, chain]).sum(axis=1) / 6
+        turn = (far @ self._turns) ** 3 / 6
         return np.stack([place] * self._linear + [turn] * (self.m - self._linear), axis=1)
 
     def _closed(self, given: _Bounds, half: Array) -> tuple[Flags, Array, Array]:
@@ -295,23 +308,26 @@ class Following:
     def _excess(self, given: _Bounds, half: Array) -> tuple[Array, Array, Array]:
         """How far the error may be from the section, how far joints go, and by how much they turn the tool."""
         far, square = (given.reach @ half[:, :, None])[:, :, 0], half**2
-        rest = self._third(far) + (given.left @ half[:, :, None])[:, :, 0]
+        rest = self._third(far, given.out) + (given.left @ half[:, :, None])[:, :, 0]
         mixed = ((given.second @ half[:, None, :, None])[..., 0] * half[:, None]).sum(axis=2)
         rest += (mixed - (np.abs(given.own) @ square[:, :, None])[:, :, 0]) / 2
         high, low = (rest + (np.maximum(x, 0) @ square[:, :, None])[:, :, 0] / 2 for x in (given.own, -given.own))
-        return np.maximum(given.error + high, low - given.error), far, far.sum(axis=1)
+        return np.maximum(given.error + high, low - given.error), far, far @ self._turns
 
     def _slopes(self, given: _Bounds, half: Array) -> Array:
         """(N, m, 1 + m) above the slopes of the error less the section by the path and by the section."""
         last = [1, *range(half.shape[1] - self.m, half.shape[1])]
         far = (given.reach @ half[:, :, None])[:, :, 0]
         slope = given.left[:, :, last] + (given.second @ half[:, None, :, None])[:, :, last, 0]
-        turn = np.zeros((len(half), 1 + self.m))
+        turn, slid = np.zeros((len(half), 1 + self.m)), far * (1 - self._turns)
+        by = given.reach[:, :, last]
         for chain in (slice(0, self.n), slice(self.n, None)):
-            sums, own = np.cumsum(far[:, chain], axis=1), np.cumsum(given.reach[:, chain][:, :, last], axis=1)
-            slope[:, : self._linear] += (self.chain.lengths * sums**2)[:, None] @ own / 2
+            turns = self._turns[chain]
+            c, own = np.cumsum(far[:, chain] * turns, axis=1), np.cumsum(by[:, chain] * turns[:, None], axis=1)
+            most = (self.chain.lengths + (given.out + slid)[:, chain]) * c**2 + 2 * c * slid[:, chain]
+            slope[:, : self._linear] += (most[:, None] @ own + (c**2 * (1 - turns))[:, None] @ by[:, chain]) / 2
             turn += own[:, -1]
-        slope[:, self._linear :] += (turn * far.sum(axis=1)[:, None] ** 2 / 2)[:, None]
+        slope[:, self._linear :] += (turn * (far @ self._turns)[:, None] ** 2 / 2)[:, None]
         return np.asarray(slope)
 
     def _contracts(self, given: _Bounds, half: Array, wide: Array) -> Flags:
@@ -331,13 +347,14 @@ class Following:
 
 @dataclass(frozen=True, eq=False)
 class _Bounds:
-    """Of cells: errors, and sizes of what joints follow, of what is left of slopes and of second derivatives, and their own."""
+    """Of cells: errors; sizes of what joints follow, of what is left of slopes, of second derivatives; their own; slides."""
 
     error: Array
     reach: Array
     left: Array
     second: Array
     own: Array
+    out: Array
 
     def take(self, rows: Ints) -> _Bounds:
         """Of some of them."""
