@@ -196,7 +196,7 @@ def test_closed_form_of_a_planar_pose(flat4, tmp_path, rng):
                 which |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
         assert not (said & ~true).any()
         assert not (never & true).any()
-        assert (~said & ~never).mean() < 0.1
+        assert (~said & ~never).mean() < 0.15
     assert proof.proved > 0
     assert proof.refuted > 0
     lock = driven.document["locks"][1]
