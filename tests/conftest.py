@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import sys
@@ -17,7 +18,7 @@ import chromium
 import holdfast as hf
 import oracles
 from holdfast import arms, control
-from holdfast.kernels import set_threads
+from holdfast.kernels import set_backend, set_threads
 
 # No test asks how long something takes: on a busy machine hypothesis would call it a failure.
 hypothesis.settings.register_profile("holdfast", deadline=None)
@@ -137,6 +138,24 @@ def threads():
     """``set_threads``, put back afterwards."""
     yield set_threads
     set_threads(None)
+
+
+@pytest.fixture
+def gpu(monkeypatch):
+    """Two GPUs that are none, for ``kernels.set_backend("cuda")``; a :class:`fake_driver.FakeDriver`."""
+    from fake_driver import FakeDriver
+    from holdfast.kernels.gpu import driver, launch
+
+    fake = FakeDriver()
+    monkeypatch.setattr(driver, "_bindings", lambda: fake)
+    monkeypatch.setattr(launch, "ptx_text", fake.ptx)
+    driver.device.cache_clear()
+    yield fake
+    set_backend(None)
+    if fake.live:
+        gc.collect()
+    assert not fake.live, "memory on the device that nobody gave back"
+    driver.device.cache_clear()
 
 
 @pytest.fixture(scope="session")

@@ -30,6 +30,7 @@ MODULES = {
     "faults",
     "indices",
     "keep",
+    "reaction",
     "paths",
     "registry",
     "susceptibility",

@@ -7,16 +7,12 @@ from pathlib import Path
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import linprog
 
 import holdfast as hf
 from papers.ceilings import designs, singular_values
 
-Array = NDArray[np.float64]
 HERE = Path(__file__).parent
-SAMPLES, CLIMBS, STEPS, SEEDS = 100_000, 24, 40, (1, 2)
-DIFFERENCE = 1e-6  # rad, m
+SEEDS = (1, 2)
 ZERO, NAMED = 1e-7, 3  # below it is rounding of roots
 SEARCHED = 20.0  # s
 AGAIN = [(9, 6, 2), (9, 6, 3), (8, 5, 3), (7, 3, 3), (10, 3, 2), (6, 2, 2)]  # sizes searched anew
@@ -87,18 +83,22 @@ def searches() -> list[str]:
 
 
 def market() -> list[str]:
-    """The best configuration found of arms that are sold, within their limits: lower bounds."""
+    """The best configuration found of arms that are sold, within their limits: lower bounds, the better of two seeds."""
     lines = [
-        "| arm | task | lock | best found | specification | of the best known | of the bound | seconds |",
+        "| arm | task | lock | best found | specification | of the best known | of the bound | seconds of each seed |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for name, task, k, said in MARKET:
-        arm, start = hf.arms.load(name), monotonic()
-        index = hf.indices.relative_manipulability(arm, task, k)
-        best = max(best_configuration(index, seed) for seed in SEEDS)
+        index = hf.indices.relative_manipulability(hf.arms.load(name), task, k)
+        found, seconds = [], []
+        for seed in SEEDS:
+            start = monotonic()
+            found.append(float(hf.optimise(index.arm, None, index, seed=seed).value))
+            seconds.append(f"{monotonic() - start:.1f}")
+        best = max(found)
         fraction = f"0: {fatal(index)}" if best < ZERO else f"{best / float(index.best_known or 1):.3f}"
-        took = f"{best / float(index.bound or 1):.3f} | {monotonic() - start:.1f}"
-        lines.append(f"| {name} | {task} | {k} | {best:.4f} | {said:.4f} | {fraction} | {took} |")
+        took = f"{best / float(index.bound or 1):.3f} | {', '.join(seconds)}"
+        lines.append(f"| {name} | {task} | {k} | {best:.5f} | {said:.4f} | {fraction} | {took} |")
     return lines
 
 
@@ -108,44 +108,6 @@ def fatal(index: hf.indices.Index) -> str:
     values = index.by_joint(rng.uniform(-np.pi, np.pi, (2000, index.arm.n)))
     names = [name for name, worst in zip(index.failure_names, values.max(axis=0), strict=True) if worst < ZERO]
     return ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
-
-
-def best_configuration(index: hf.indices.Index, seed: int) -> float:
-    """Linear programmes within a trust region and the limits, from some of the best of many samples."""
-    arm, rng = index.arm, np.random.default_rng(seed)
-    lower, upper = np.maximum(arm.lower, -np.pi), np.minimum(arm.upper, np.pi)
-    q = rng.uniform(lower, upper, (SAMPLES, arm.n))
-    order = np.argsort(-index(q))
-    return max(climbed(index, q[k], lower, upper) for k in [order[0], *rng.choice(order[: SAMPLES // 200], CLIMBS)])
-
-
-def climbed(index: hf.indices.Index, q: Array, lower: Array, upper: Array) -> float:
-    """A local maximum of the worst case: all failures near the worst, each by its tangent."""
-    n, radius = len(q), 0.3
-    values = index.by_joint(q)
-    for _ in range(STEPS):
-        if radius < 1e-7:
-            break
-        slopes = (index.by_joint(q + DIFFERENCE * np.eye(n)) - values).T / DIFFERENCE
-        near = values <= values.min() + 2 * radius * np.linalg.norm(slopes, axis=1).max()
-        low, high = np.maximum(-radius, lower - q), np.minimum(radius, upper - q)
-        answer = linprog(
-            [*np.zeros(n), -1.0],
-            A_ub=np.hstack([-slopes[near], np.ones((near.sum(), 1))]),
-            b_ub=values[near] - values.min(),
-            bounds=[*zip(low, high, strict=True), (None, None)],
-            method="highs-ds",
-        )
-        if answer.x is None:
-            break
-        new = np.clip(q + answer.x[:n], lower, upper)
-        tried = index.by_joint(new)
-        if tried.min() > values.min():
-            q, values = new, tried
-            radius = min(1.5 * radius, 0.5)
-        else:
-            radius *= 0.4
-    return float(values.min())
 
 
 def main() -> None:

@@ -9,6 +9,7 @@ from holdfast import faults as faults
 from holdfast import indices as indices
 from holdfast import keep as keep
 from holdfast import paths as paths
+from holdfast import reaction as reaction
 from holdfast import registry as registry
 from holdfast.arm import DH as DH
 from holdfast.arm import Arm as Arm

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import written
 from driven import SEGMENT, Driven
+from scipy.optimize import least_squares
 from written import put, shifted
 
 import holdfast as hf
@@ -62,7 +63,7 @@ def test_a_panda_finishes_whatever_locks_but_its_elbow(moved, tmp_path):
     assert proved[3] < 0.5
     check = hf.check_certificate(moved.write(tmp_path / "a.certificate"))
     assert (check.rejected, check.undecided, check.tolerant) == (0, moved.undecided, moved.tolerant)
-    assert [part.undecided for part in check.parts] == [1 - part.proved for part in moved.parts]
+    assert [(part.refuted, part.undecided) for part in check.parts] == [(part.refuted, part.undecided) for part in moved.parts]
     assert moved.leaves == check.accepted
 
 
@@ -98,7 +99,32 @@ def test_closed_form_of_a_planar_arm(bent, tmp_path):
             said |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
         assert not (said & ~true).any()
         assert (true & ~said).mean() < 0.05
+        never = np.zeros(len(at), dtype=bool)
+        for begin, stop in part.refuted_spans:
+            never |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
+        assert not (never & true).any()
+        assert (~never & ~true).mean() < 0.02
     assert 0 < bent.tolerant < 1
+    assert [part.refuted > 0 for part in bent.parts] == [True] * 3
+
+
+def test_where_a_lock_is_refuted_nothing_is_found(moved, tmp_path, rng):
+    """By scipy's least squares, which finds the tool's place again if the elbow locks later."""
+    driven = Driven(moved.write(tmp_path / "a.certificate"))
+    lock = driven.document["locks"][3]
+    (first, *_, last), free = lock["refutations"], [0, 1, 2, 4, 5, 6]
+    goal, wanted, _ = driven.tool(driven.knots[first["at"] // SEGMENT])
+    low, high = driven.low[free], driven.high[free]
+    for instant, found in ((first["begin"], False), (last["stop"] - 1, False), (5.9 * SEGMENT, True)):
+        q = driven.healthy(instant / SEGMENT)[0]
+
+        def missed(x, q=q):
+            place, turn, _ = driven.tool(np.insert(x, 3, q[3]))
+            return np.append(place - goal, (turn - wanted).ravel() / 2)
+
+        starts = [q[free], *rng.uniform(low, high, (8, 6))]
+        left = min(least_squares(missed, x.clip(low, high), bounds=(low, high)).cost for x in starts)
+        assert (left < 1e-16) == found
 
 
 def test_joints_that_are_left_over_follow(tmp_path, rng):
@@ -248,6 +274,11 @@ def said(key, value):
     return forge
 
 
+def swap_refuted(document):
+    """As if it had been proved, by the cells of another."""
+    document["locks"][3]["refutations"].pop()
+
+
 @pytest.mark.parametrize(
     "forge",
     [
@@ -270,6 +301,15 @@ def said(key, value):
         recut(lambda x: np.append(x, [1, 2, 0])),
         put(("during", 1), 7 * SEGMENT),
         put(("locks", 3, "proved"), "1/1"),
+        put(("locks", 3, "refuted"), "1/1"),
+        put(("locks", 3, "refutations", 0, "begin"), 1),
+        put(("locks", 3, "refutations", 0, "stop"), 3 * SEGMENT),
+        put(("locks", 3, "refutations", 0, "at"), 2 * SEGMENT),
+        put(("locks", 3, "refutations", 1, "tree"), lambda x: written.packed(written.unpacked(x)[:-1])),
+        put(("locks", 3, "refutations", 1, "tree"), written.packed(b"\0")),
+        put(("points", 0, "place", 2), lambda x: shifted(x, 0.5)),
+        put(("pairs", 0), [3, 1]),
+        swap_refuted,
         said("proved", "1/1"),
         said("undecided", "0/1"),
         put(("task",), "position"),
@@ -348,7 +388,7 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
         error, first, second = (x.at[0] for x in faults.expanded(verifier.motions.Balls(q), verifier.motions.Balls(goal)))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
-        now = following._missed(following._moved(q + ours), following._moved(goal + theirs))[0][0]
+        now = following.missed(following.moved(q + ours), following.moved(goal + theirs))[0][0]
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
         assert (np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None])[0] + 1e-12).all()
 

@@ -96,8 +96,10 @@ def test_a_ceiling(cli, tmp_path):
     assert code == 0
     assert json.loads(out)["rejected"] == 0
     assert "is at most 0.07; angles in rad" in cli("certificate", "show", str(file))[1]
-    code, out, _ = cli(*words, "--within", "3", "--below", "0.06")
+    page = tmp_path / "a.html"
+    code, out, _ = cli(*words, "--within", "3", "--below", "0.06", "--report", str(page))
     assert code == 4
+    assert "certify ceiling panda" in page.read_text(encoding="utf-8")
     assert "Refuted: 0.06" in out
     assert cli("certificate", "check", str(file))[0] == 0
     code, _, err = cli(*words, "--within", "3 4", "--below", "0.06")

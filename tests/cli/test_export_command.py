@@ -34,6 +34,9 @@ def test_a_monitor_stands_beside_the_law(ask, tmp_path):
     data = ask("export", "planar-3r", "--law", "pseudoinverse", "--monitor", known, "--out", tmp_path)
     assert (tmp_path / "pseudoinverse_monitor.c").read_text().count("pseudoinverse_monitor_step(") == 1
     assert str(tmp_path / "pseudoinverse_monitor.h") in data["files"]
+    data = ask("export", "planar-3r", "--law", "pseudoinverse", "--monitor", known, "--controller", "--out", tmp_path / "more")
+    for file in ("pseudoinverse_controller.hpp", "pseudoinverse_controller_monitor.c"):
+        assert str(tmp_path / "more" / file) in data["files"]
 
 
 def test_a_person_reads_what_was_written(cli, tmp_path):
@@ -53,6 +56,7 @@ def test_what_is_refused(refused, tmp_path):
     assert "did you mean pseudoinverse?" in refused(*start, "--law", "pseudo-inverse")
     assert "control law 'pinv' is not known" in refused(*start, "--law", "pinv")
     assert "--language 'rust' is not known; use c" in refused(*start, "--language", "rust")
+    assert "--controller needs --monitor BOUNDS" in refused(*start, "--controller")
     assert "between 0 and 1" in refused(*start, "--law", "failure-tolerant:2")
     assert "--law 'weighted:a,1,2': 'a' is not a number" in refused(*start, "--law", "weighted:a,1,2")
     assert "cannot name a C function" in refused(*start, "--law", "pseudoinverse", "--name", "3r")

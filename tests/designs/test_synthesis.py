@@ -5,6 +5,7 @@ import pytest
 import yaml
 
 import holdfast as hf
+from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
 from holdfast.designs.synthesis.axes import axes_of, poses_of
 from holdfast.designs.synthesis.orders import distinct_orders
 
@@ -161,6 +162,31 @@ def test_a_changed_digit_is_found(book, tmp_path):
             file = tmp_path / "changed.yaml"
             file.write_text(yaml.safe_dump(new), encoding="utf-8")
             assert not hf.designs.record(str(file)).check().ok, (name, change)
+
+
+def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_library(book, tmp_path):
+    """Widths of the last joint's range, and what they cost: section 9 of the specification; the library samples the plane."""
+    b = 2 * np.arccos(0.6)
+    for width, area in ((0.001, 9.4185), (0.02, 9.2983), (0.05, 9.1059), (0.1, 8.7783), (0.2, 8.1013)):
+        assert area_in_closed_form([0.5, 1.25, 1.25], (b - width, b)) == pytest.approx(area, abs=6e-5)
+    limits = np.array([[-np.pi, np.pi], [b - 0.2, b]])
+    assert area_by_grid([0.5, 1.25, 1.25], limits) == pytest.approx(8.1013, rel=2e-3)
+    record = book["workspace-planar-3R-001"]
+    for last in ((b - 0.2, b), (-0.3, 0.4), (2.9, 3.4)):
+        pairs = np.array([[-np.pi, np.pi], [-np.pi, np.pi], last])
+        found = hf.tolerant_workspace(record.arm, "planar", pairs).size
+        assert area_in_closed_form([0.5, 1.25, 1.25], last) == pytest.approx(found, rel=1e-4)
+    changed = yaml.safe_load(record.text)
+    for key, value, said in (
+        ("limits", [None, [-1, 1], None], "no joint but the last"),
+        ("limits", [None, None], "limits of each joint"),
+        ("value", 9.4, "value"),
+    ):
+        file = tmp_path / "changed.yaml"
+        file.write_text(yaml.safe_dump(changed | {key: value}), encoding="utf-8")
+        check = hf.designs.record(str(file)).check()
+        assert any(said in claim for claim, holds in check.claims if not holds)
+    assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in ("00", "05", 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
 
 
 def test_a_record_in_mujoco(book):

@@ -3,34 +3,16 @@
 from __future__ import annotations
 
 import builtins
-import gc
 
 import casadi as ca
 import numpy as np
 import pytest
-from fake_driver import Array, FakeDriver
 
-import holdfast as hf
-from holdfast import arms, control, indices, kernels
-from holdfast.engine import Study, Threads
+from fake_driver import Array, FakeDriver, Reader, read
+from holdfast import kernels
 from holdfast.errors import InputError, KernelError
 from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu import driver, launch, ptx
-from holdfast.studies import read as read_study
-
-
-@pytest.fixture
-def gpu(monkeypatch):
-    fake = FakeDriver()
-    monkeypatch.setattr(driver, "_bindings", lambda: fake)
-    monkeypatch.setattr(launch, "ptx_text", fake.ptx)
-    driver.device.cache_clear()
-    yield fake
-    kernels.set_backend(None)
-    if fake.live:
-        gc.collect()
-    assert not fake.live, "memory on the device that nobody gave back"
-    driver.device.cache_clear()
 
 
 def pair(backend):
@@ -53,6 +35,20 @@ def test_rows_are_those_of_the_processor(gpu, rng):
     assert arguments[0][1::3][:3] == (3, 1, 0)  # from row to row; one matrix serves all
     assert len(arguments[0]) == len(arguments[1]) == 13
     assert not gpu.current  # every context that was pushed was popped
+
+
+def test_a_gpu_takes_over_what_was_made_before_but_not_what_was_told_where_to_be(gpu, rng):
+    before, told = pair(None), pair("llvm")
+    given = rng.normal(size=(4, 3)), rng.normal(size=4), rng.normal(size=(2, 3))
+    expected = before(*given)
+    for name, launches in (("cuda:1", 1), ("llvm", 1), ("cuda", 2), (None, 2)):
+        kernels.set_backend(name)
+        for a, b, c in zip(before(*given), told(*given), expected, strict=True):
+            np.testing.assert_array_equal(a, c)
+            np.testing.assert_array_equal(b, c)
+        assert len(gpu.asked("cuLaunchKernel")) == launches
+        assert before.now().backend == (name if "cuda" in str(name) else "llvm")
+    assert [k for ((_, k),) in gpu.asked("cuDevicePrimaryCtxRetain")] == [1, 0]
 
 
 def test_large_batches_go_in_parts(gpu, rng, monkeypatch):
@@ -110,53 +106,24 @@ def test_arrays_of_the_device_are_not_copied(gpu, rng):
     assert x.streams == y.streams == [77]
     for got, expected in zip((a, b, c), off(x.values, y.values, m.values), strict=True):
         assert got.__dlpack_device__() == (2, 0)
-        np.testing.assert_array_equal(read(got, gpu, stream=77), expected)
+        np.testing.assert_array_equal(read(got, stream=77), expected)
     assert not gpu.asked("cuStreamSynchronize")
-    read(a, gpu, stream=5)  # another stream must wait
+    read(a, stream=5)  # another stream must wait
     assert gpu.asked("cuStreamSynchronize") == [(("stream", 77),)]
     again = on.exchange(x, b, m)[1]  # results are inputs too
-    np.testing.assert_array_equal(read(again, gpu), off(x.values, off(x.values, y.values, m.values)[1], m.values)[1])
+    np.testing.assert_array_equal(read(again), off(x.values, off(x.values, y.values, m.values)[1], m.values)[1])
 
 
-class Reader:
-    """Takes a capsule as a framework on the processor would, and says so."""
-
-    def __init__(self, array, stream):
-        self.array, self.stream = array, stream
-
-    def __dlpack_device__(self):
-        return 1, 0
-
-    def __dlpack__(self, **_):
-        import ctypes
-
-        from holdfast.kernels.gpu import arrays
-
-        capsule = self.array.__dlpack__(stream=self.stream)
-        managed = arrays._Managed.from_address(arrays._pointer(capsule, b"dltensor"))
-        managed.tensor.device_type = 1
-        assert ctypes.addressof(managed) in arrays._lent
-        return capsule
-
-
-def read(array, gpu, stream=1):
-    view = np.from_dlpack(Reader(array, stream))
-    assert view.ctypes.data == array.pointer  # shared
-    return view.copy()
-
-
-def test_capsules_that_nobody_takes_are_taken_back(gpu, rng):
-    from holdfast.kernels.gpu import arrays
-
+def test_capsules_give_the_memory_back_whatever_becomes_of_them(gpu, rng):
     out = pair("cuda").exchange(Array(rng.normal(size=(4, 3))), Array(rng.normal(size=4)), Array(rng.normal(size=(2, 3))))
-    capsule = out[0].__dlpack__()
-    assert len(arrays._lent) == 1
-    del capsule
-    assert not arrays._lent
-    view = np.from_dlpack(Reader(out[1], 1))
+    view, capsules = np.from_dlpack(Reader(out[1])), [out[0].__dlpack__()]
     del out
-    assert view.sum() == view.sum()  # its memory lives as long as it does
-    assert len(gpu.live) == 1
+    assert view.sum() == view.sum()
+    del view
+    assert len(gpu.live) == 1  # nobody has taken the capsule yet
+    with pytest.raises(ZeroDivisionError):
+        [capsules.pop(), 1 / 0]  # it ends while an exception is on its way
+    assert not gpu.live
 
 
 def test_what_cannot_be_exchanged_is_a_sentence(gpu, rng):
@@ -239,49 +206,3 @@ def test_a_machine_without_gpu_is_a_sentence(missing, monkeypatch):
             ask()
     driver._bindings.cache_clear()
     assert kernels.default_backend() in ("llvm", "casadi")
-
-
-STUDY = """
-seed: 7
-poses: 8
-chunk: 4
-arms: [planar-3r]
-assess: {indices: [manipulability], tasks: [planar], clearance: false}
-"""
-
-
-def test_the_backend_alone_brings_everything_to_the_device(gpu, tmp_path):
-    """Indices, laws, inverse kinematics, optimisation, closed loops, an assessment, a study: bits as on the processor."""
-    (tmp_path / "study.yaml").write_text(STUDY)
-
-    def outcome():
-        arm = arms.load("planar-3r")
-        rho, law = indices.relative_manipulability(arm, "planar"), control.by_name("damped:0.1", arm, task="planar")
-        q = np.random.default_rng(1).uniform(-2, 2, (12, 3))
-        poses = arm.forward_kinematics(q)
-        found = hf.solve_ik(arm, poses, task="planar", seed=3)
-        best = hf.optimise(arm, poses[:2], rho, seed=3)
-        runs = hf.simulate(law, q, poses[::-1], locked=[1], time_limit=5)
-        region = hf.Region.joints([-2, -2, -2], [2, 2, 2])
-        run = hf.assess(arm, region, rho, poses=8, seed=1)
-        asked = read_study(tmp_path / "study.yaml")
-        study = Study.create(tmp_path / kernels.default_backend(), asked.name, asked.seed, cells=asked.cells, source=asked.text)
-        assert study.run(asked.cells, Threads(1)) == {}
-        of_study = [study.store(0).read(k, ("index",))["index"] for k in range(2)]
-        return [
-            rho(q),
-            rho.gradient(q),
-            law.velocity(q, np.ones(2)),
-            found.q,
-            best.q,
-            runs.q_final,
-            *run.columns.values(),
-            *of_study,
-        ]
-
-    expected = outcome()
-    kernels.set_backend("cuda")
-    got = outcome()
-    for a, b in zip(got, expected, strict=True):
-        np.testing.assert_array_equal(a, b)
-    assert gpu.asked("cuLaunchKernel")

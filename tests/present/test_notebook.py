@@ -93,6 +93,7 @@ MADE = {
     ),
     "FaultBatch": found(lambda: hf.faults.Faults([hf.faults.weak(gain=0.3, onset=1.0)]).batch(arm(), episodes=2)),
     "Orders": found(lambda: hf.designs.judge_orders(hf.arms.load("panda").jacobian(np.full(7, 0.4)), samples=20)),
+    "Judgement": found(lambda: hf.designs.judge(arm(), task="planar", measures=["fraction-above"], samples=200)),
     "Record": found(hf.designs.record, "pose-9R-k2-001"),
     "RecordCheck": found(lambda: hf.designs.record("pose-9R-k2-001").check()),
     "Synthesis": found(lambda: hf.designs.synthesise(hf.ceilings.look_up(n=4, m=2, k=1), task="planar", starts=1)),
@@ -139,12 +140,13 @@ WITHOUT_FIGURE |= {
     "CeilingTable",
     "SingularValueCeiling",
     "FaultBatch",
+    "Judgement",
     "Orders",
     "Record",
     "RecordCheck",
     "Synthesis",
 }
-WITHOUT_FIGURE |= {"ManipulabilityBound", "Refutation", "StructuralZero", "WaypointCheck"}
+WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "Bounds",

@@ -25,10 +25,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 PARTS = {
-    "ManipulabilityBound",
     "CertificateCheck",
     "Configurations",
-    "Refutation",
     "StructuralZero",
     "WaypointCheck",
 }  # of a result, without a command that writes their page

@@ -10,6 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.diagnosis import Verdict
 from holdfast.reaction.controller import Controller
+from holdfast.reaction.plan import Planned
 
 JOINTS = hf.arms.load("panda").joint_names
 TRACKING = np.full(7, 1e-3)
@@ -18,15 +19,18 @@ TRACKING = np.full(7, 1e-3)
 class Robot:
     """Brakes and a monitor that are only counted."""
 
-    def __init__(self, react="chain", rates=0.1):
-        self.braked, self.rearmed, arm = [], 0, hf.arms.load("panda")
-        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0)
+    def __init__(self, react="chain", rates=0.1, plan=False):
+        self.braked, self.released, self.rearmed, arm = [], [], 0, hf.arms.load("panda")
+        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
         self.controller = Controller(
-            law, SimpleNamespace(arm=arm), tracking=TRACKING, brakes=self, rearm=self.rearm, react=react, plan=False
+            law, SimpleNamespace(arm=arm), tracking=TRACKING, brakes=self, rearm=self.rearm, react=react, plan=plan
         )
 
     def brake(self, joint):
         self.braked.append(joint)
+
+    def release(self, joint):
+        self.released.append(joint)
 
     def rearm(self):
         self.rearmed += 1
@@ -109,3 +113,37 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
     for k in range(601, 900):
         near = robot.controller.rates(k * 1e-3, arm.upper - 0.05)
     assert near == pytest.approx(np.sqrt(2 * 10.0 * 0.05))
+
+
+@pytest.mark.parametrize("at_a_stop", [True, False])
+def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(monkeypatch, at_a_stop):
+    """At a stop, or slow, a joint looks as one that drives nothing."""
+    asked, q, arm = [], np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), hf.arms.load("panda")
+
+    def planned(law, q, target, left, *, time, pace=1.0):
+        asked.append((left, pace))
+        if left.locked or (left.ranges[JOINTS[1]][1] < arm.upper[1] and not at_a_stop):
+            return "no route"
+        return Planned(start=time, q=np.stack([q, q - 0.1]), at=time + np.array([0.0, 1.0]))
+
+    monkeypatch.setattr("holdfast.reaction.controller.planned", planned)
+    robot = Robot(rates=0.0, plan=True)
+    robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
+    robot.controller.rates(3.0, q)
+    assert (robot.did(), robot.released) == (["alarm", "brake", "release", "plan"], [JOINTS[1]])
+    tries = [({}, {JOINTS[1]: (arm.lower[1], end)}, 0.2) for end in ((0.4,) if at_a_stop else (0.4, arm.upper[1]))]
+    assert [(dict(left.locked), dict(left.ranges), pace) for left, pace in asked] == [({JOINTS[1]: 0.4}, {}, 1.0), *tries]
+    assert not robot.controller.reacted  # the joint is watched
+    robot.hear(3.5, kind="limp", behind=7.9e-3)
+    assert robot.controller.law.mask[1] == 1
+    robot.hear(3.6, kind="limp", behind=-8.1e-3)
+    assert (robot.did()[-2:], robot.controller.over, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)
+    assert robot.braked == [JOINTS[1]] * 2
+
+
+def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
+    monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *args, **options: "no route")
+    robot = Robot(react="known", rates=0.0, plan=True)
+    robot.controller.know(1.0, "sensor_freeze", JOINTS[1], 0.3)
+    robot.controller.rates(3.0, np.zeros(7))
+    assert (robot.did()[-1], robot.released) == ("stop", [])

@@ -120,6 +120,7 @@ def best_null_space(
     *,
     seed: int,
     seconds: float,
+    enough: float = np.inf,
     starts: int = 48,
     polish: int = 10,
     progress: Callable[[float], None] | None = None,
@@ -132,6 +133,7 @@ def best_null_space(
         k: Failures at once.
         seed: Of the starts.
         seconds: Time; one start is always polished.
+        enough: Worst case that ends the search.
         starts: Of a batch.
         polish: How many of them are polished, the best ones.
         progress: Called with the best value after each polish.
@@ -140,7 +142,7 @@ def best_null_space(
         N (n, p) and ``min rho_S``.
     """
     if k == p and n - p < p:  # the minors of the complement are the same, and smaller
-        other, value = best_null_space(n, n - p, n - p, seed=seed, seconds=seconds, progress=progress)
+        other, value = best_null_space(n, n - p, n - p, seed=seed, seconds=seconds, enough=enough, progress=progress)
         return complement(other), value
     rng, minors = np.random.default_rng(seed), Minors(n, k)
     end = monotonic() + seconds
@@ -154,6 +156,8 @@ def best_null_space(
                 found = null, square
             if progress is not None:
                 progress(float(np.sqrt(found[1])))
+            if found[1] >= enough**2:
+                end = -np.inf
             if monotonic() > end:
                 break
     return found[0], float(np.sqrt(max(found[1], 0.0)))

@@ -56,7 +56,14 @@ class CeilingSearch(Result):
 
 
 def search(
-    *, n: int, m: int, k: int, seed: int = 0, seconds: float = 20.0, progress: Callable[[float], None] | None = None
+    *,
+    n: int,
+    m: int,
+    k: int,
+    seed: int = 0,
+    seconds: float = 20.0,
+    enough: float | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> CeilingSearch:
     """Search for a null space whose worst case after k failures is large: ascents from random starts, then linear programmes.
 
@@ -66,6 +73,7 @@ def search(
         k: Joints that lock at once.
         seed: Of the starts: with the same seed a longer search goes through the same starts, and more.
         seconds: After which no new start is polished; the first one always is.
+        enough: A worst case that ends the search. Default: the proven bound, which nothing passes.
         progress: Called with the best value so far.
 
     Raises:
@@ -77,6 +85,7 @@ def search(
     if not seconds > 0:
         raise InputError(f"the search may take {seconds:g} s; give a positive number")
     start = monotonic()
-    found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, progress=progress)
+    stop = known.bound * (1 - _SAME) if enough is None else enough
+    found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, enough=stop, progress=progress)
     null = np.linalg.qr(found)[0]
     return CeilingSearch(ceiling=known, null_space=null, value=worst_case(null, k), seed=seed, seconds=monotonic() - start)

@@ -21,6 +21,7 @@ class CertificateCheck(Result):
         claim: The sentence that is proved, as far as it is.
         locked: Name of the locked joint; empty of a healthy arm, and of a bundle.
         leaves, accepted, rejected: Cells; what a rejected one covers counts as undecided.
+        refuted: Of a path, exact share of the lock instants at which nothing finishes it; of a bundle in its worst part.
         undecided: Exact share of targets and locked angles; of a bundle in its worst part.
         tolerant: At least this share of the targets is proved, for every locked value and lock.
         seconds: Measured.
@@ -38,6 +39,7 @@ class CertificateCheck(Result):
     seconds: float
     said: str
     parts: tuple[CertificateCheck, ...] = ()
+    refuted: Fraction = Fraction(0)
 
     @property
     def ok(self) -> bool:
@@ -83,4 +85,5 @@ def _of(found: verifier.Verdict) -> CertificateCheck:
         seconds=found.seconds,
         said=found.sentence,
         parts=tuple(map(_of, found.parts)),
+        refuted=found.false,
     )

@@ -167,10 +167,11 @@ class Crew:
 
     def _hear(self, job: Job, state: SearchState) -> None:
         self._states[job.name] = job.share, state
-        shares = np.array([[share * s.proved, share * s.undecided, s.nodes] for share, s in self._states.values()])
-        proved, undecided, nodes = shares.sum(axis=0)
-        left, self.nodes = max(1 - (proved + undecided) / self._count, 0.0), int(nodes)
-        self._tell(SearchState(proved=proved / self._count, undecided=undecided / self._count, open=left, nodes=self.nodes))
+        parts = ("proved", "refuted", "undecided")
+        states = self._states.values()
+        shares = {key: sum(share * getattr(s, key) for share, s in states) / self._count for key in parts}
+        self.nodes = sum(s.nodes for _, s in states)
+        self._tell(SearchState(**shares, open=max(1 - sum(shares.values()), 0.0), nodes=self.nodes))
 
     def found(self, job: Job) -> Any:
         """Of a job and those that it leaves; what was not looked at is undecided."""

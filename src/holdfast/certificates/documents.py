@@ -24,6 +24,7 @@ from holdfast.certificates.taylor import UNIT, Chain
 from holdfast.certificates.tool_paths import forms
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import LockedPath
+from holdfast.certificates.tool_paths.rings import rings_of
 from holdfast.certificates.tree import PROVED
 
 Document = dict[str, Any]
@@ -111,17 +112,24 @@ def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
     for part in parts:
         numbers = [x for slab in part.slabs for x in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
         rows = np.array([row for slab in part.slabs for row in slab.centres], "<i4")
-        kept = {"joint": part.joint, "followers": list(part.followers), "proved": verifier.paths.text(part.proved)}
+        kept = {"joint": part.joint, "followers": list(part.followers)}
+        kept |= {key: verifier.paths.text(getattr(part, key)) for key in ("proved", "refuted")}
+        kept["refutations"] = [
+            {"begin": one.begin, "stop": one.stop, "at": one.at, "tree": _packed(one.tree)} for one in part.never
+        ]
         locks.append(kept | {"cells": _packed(np.array(numbers, "<i8").tobytes()), "centres": _packed(rows.tobytes())})
-    least = min(part.proved for part in parts)
-    volumes = {"proved": least, "refuted": Fraction(0), "undecided": 1 - least}
+    refuted = next((part.joint for part in parts if part.never), None)
+    rings = None if refuted is None else rings_of(claim, refuted)  # the points of all locks are the same
+    points = [] if rings is None else [{"link": link, "place": _hexes(place)} for link, place in rings.points]
     return _signed(
         _common("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
         | _asked(claim)
         | {
             "unit": forms.UNIT.hex(),
             "locks": locks,
-            "volumes": {key: verifier.paths.text(part) for key, part in volumes.items()},
+            "points": points,
+            "pairs": [] if rings is None else [list(pair) for pair in rings.pairs],
+            "volumes": verifier.paths.volumes([(part.proved, part.refuted) for part in parts]),
         }
     )
 

@@ -20,6 +20,9 @@ from holdfast.linalg import Cholesky, damped_least_norm
 
 Array = NDArray[np.float64]
 
+PARTS = 16  # of a cell's width: how much of it is proved is told in these
+AT_ONCE = 5  # rounds
+_ROUNDS = 30  # of the section box in a test, each a little wider than what the one before needs
 _TOO_FAR = 0.5  # m or rad of error: no section box will do
 _STRIDE = 0.5  # rad in one step of Newton's method
 _STRAIGHT = 0.951  # the error of a rotation is 0 for half a turn as well: its cosine must be above this, and its angles
@@ -255,27 +258,45 @@ class Expansion:
 
     @cached_property
     @recalled
-    def rounds(self) -> Loop:
-        """The section box, and 1 where it is found or -1 where none is: each a little wider than what the one before needs."""
-        form, cell, section, verdict = self._form, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m), ca.SX.sym("v")
-        q, free, low, high = (ca.SX.sym(name, self.arm.n) for name in ("q", "free", "low", "high"))
-        above, below, far, turned = self._sides(form, cell, section)
-        e, room = ca.fmax(above, below), 1.001 * far + 1e-6
-        beyond = ca.fmax(low - (q - room), q + room - high) * free
-        inside = ca.mmax(beyond) <= 0
+    def tests(self) -> Loop:
+        """Form, cell and how far joints may go -> how much of the cell is proved, in sixteenths of its width.
+
+        One test comes after the other, until there is nothing between what passed and what failed. The state is a section box
+        (m,), which grows from 0 in each; the greatest sixteenths that passed; those that are
+        tested now; how many more the next test may have; and the rounds of this one. A test that is the last leaves the box
+        where it ended.
+        """
+        form, cell, section = self._form, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
+        room = ca.SX.sym("room", self.arm.n)
+        start = state = ca.vertcat(section, *[ca.SX.sym(name) for name in ("passed", "now", "more", "rounds")])
+        for _ in range(AT_ONCE):  # a step costs more than what it computes: several rounds in each
+            state = self._round(state, form, cell, room)
+        return Loop(
+            "section box of a cell", start, [form, cell, room], next_state=state, residual=state[self.m + 2], ahead=True
+        )
+
+    def _round(self, state: SX, form: SX, cell: SX, room: SX) -> SX:
+        """The state after one round: the section box a little wider than what it needs, or the next test."""
+        section, (passed, now, more, rounds) = state[: self.m], ca.vertsplit(state[self.m :])
+        above, below, far, turned = self._sides(form, cell * (now / PARTS), section)
+        e, inside = ca.fmax(above, below), ca.mmax(1.001 * far + 1e-6 - room) <= 0
         if self.rotated:
             inside = ca.logic_and(inside, turned < _MOST)
-        closed = ca.mmax(1.002 * e + 2e-7 - section) <= 0
-        lost = ca.logic_or(ca.logic_not(inside), ca.mmax(e) >= _TOO_FAR)
-        now = ca.if_else(closed, ca.if_else(inside, 1.0, -1.0), ca.if_else(lost, -1.0, 0.0))
-        after = ca.if_else(closed, section, ca.fmin(1.05 * e + 1e-9, 1.0))
-        return Loop(
-            "section box of a cell",
-            ca.vertcat(section, verdict),
-            [form, cell, q, free, low, high],
-            next_state=ca.vertcat(after, now),
-            residual=1 - ca.fabs(now),
-            ahead=True,
+        closed, over = ca.mmax(1.002 * e + 2e-7 - section) <= 0, more < 1
+        good = ca.logic_and(closed, inside)
+        lost = ca.logic_or(ca.mmax(e) >= _TOO_FAR, rounds >= _ROUNDS - 1)
+        ended = ca.logic_and(ca.logic_not(over), ca.logic_or(closed, ca.logic_or(ca.logic_not(inside), lost)))
+        after = ca.if_else(ca.logic_or(over, closed), section, ca.fmin(1.05 * e + 2.5e-7, 1.0))
+        last = ca.if_else(good, now >= PARTS - 1, now - passed <= 1)  # nothing is between what passed and what failed
+        left = ca.if_else(last, 0, more / 2)
+        another = ca.logic_and(ended, left >= 1)
+        passed = ca.if_else(ca.logic_and(ended, good), now, passed)
+        return ca.vertcat(
+            ca.if_else(another, 0, after),
+            passed,
+            ca.if_else(another, ca.fmin(passed + left, PARTS - 1), now),
+            ca.if_else(ended, left, more),
+            ca.if_else(ended, 0, rounds + 1),
         )
 
     # ---- configurations ----------------------------------------------------------------------------------------

@@ -14,15 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.certificates.expansions import Expansion
+from holdfast.certificates.expansions import PARTS, Expansion
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
 UNIT = 2.0**-24  # rad: centres are written in multiples of it
-_ROUNDS = 30  # of the section box, each a little wider than what the one before needs
-_HALVINGS = 4
+_STEPS = 40  # of tests, each of several rounds
 _LOST = 1e6  # m: the error where the arm is singular
 _NEVER = 1e6  # rad or m, for a limit that is not there
 _FAR = 5.0  # m: a slide without limits is not tried beyond
@@ -202,20 +201,34 @@ class Form:
 
     def proved(self, cells: Array) -> tuple[Flags, Array]:
         """Which of cells of half widths (N, c) are proved, and section boxes (N, m) of these; of others, where that ended."""
-        r, count = self.reach, len(self.q)
-        fixed = np.tile(np.concatenate([r._free, *r._limits]), (count, 1))
-        parameters = np.concatenate([self.parts, self._whole(cells), self.q, fixed], axis=1)
-        found = r.expansion.rounds.run(np.zeros((count, r.m + 1)), parameters, 0.5, _ROUNDS).state
-        return found[:, -1] == 1, np.nan_to_num(found[:, :-1])
+        passed, sections = self._tested(cells, np.array([PARTS - 1.0, PARTS, 1]))
+        return passed == PARTS, sections
 
-    def scale(self, cells: Array) -> Array:
-        """(N,) the largest factor up to 1 by which cells of half widths (N, c) are proved, to 1/16."""
-        low, high = np.zeros(len(cells)), np.ones(len(cells))
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            good, _ = self.proved(cells * middle[:, None])
-            low, high = np.where(good, middle, low), np.where(good, high, middle)
-        return low
+    def scale(self, cells: Array, least: Array | None = None) -> Array:
+        """(N,) the largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
+
+        ``least`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
+        """
+        if least is None:
+            return self._tested(cells, np.array([0, PARTS / 2, PARTS / 2]))[0] / PARTS
+        passed = PARTS * least
+        more = np.where(passed + 1 < PARTS, 2 ** np.ceil(np.log2(np.maximum(PARTS - 1 - passed, 1))), 0)
+        first = np.column_stack([passed, passed + 1, more])
+        first[passed == 0] = 0, PARTS / 2, PARTS / 2  # no test passes of cells too small for its margins
+        return self._tested(cells, first)[0] / PARTS
+
+    def _tested(self, cells: Array, begin: Array) -> tuple[Array, Array]:
+        """(N,) how many sixteenths of cells pass, and the section boxes of the last tests.
+
+        ``begin``: How many are known to, how many are tested first, and a power of 2, twice that by which others are more.
+        """
+        r, (low, high) = self.reach, self.reach._limits
+        room = np.where(r.free, np.minimum(self.q - low, high - self.q), _NEVER)
+        parameters = np.concatenate([self.parts, self._whole(cells), room], axis=1)
+        state = np.zeros((len(self.q), r.m + 4))
+        state[:, r.m : r.m + 3] = begin
+        found = np.nan_to_num(r.expansion.tests.run(state, parameters, 0.5, _STEPS).state)
+        return found[:, r.m], found[:, : r.m]
 
     def worst_axis(self, cells: Array, may: Flags) -> Index:
         """(N,) the axis among those that may (N, c) whose halving leaves least error and least beyond the limits."""

@@ -20,7 +20,8 @@ class SearchState:
     """How far a search has come.
 
     Attributes:
-        proved, undecided: Shares of all parts of the claim together. What is refuted is so by one witness, as a whole.
+        proved, undecided: Shares of all parts of the claim together.
+        refuted: Likewise, of a path; of other claims all is refuted by one witness.
         open: The share that is still to be looked at.
         nodes: Boxes that were looked at.
     """
@@ -29,6 +30,7 @@ class SearchState:
     undecided: float
     open: float
     nodes: int
+    refuted: float = 0.0
 
 
 Tell = Callable[[SearchState], None]

@@ -36,7 +36,7 @@ if TYPE_CHECKING or __package__:
     from holdfast.certificates.verified import motions as motions
     from holdfast.certificates.verified import paths as paths
     from holdfast.certificates.verified.bounds import Motions, Wrenches
-    from holdfast.certificates.verified.distances import Apart
+    from holdfast.certificates.verified.distances import Apart, Unfinished
     from holdfast.certificates.verified.files import first_file
     from holdfast.certificates.verified.files import load as load
     from holdfast.certificates.verified.forms import FOR_PEOPLE as FOR_PEOPLE
@@ -52,7 +52,7 @@ if TYPE_CHECKING or __package__:
 else:  # run as a file: the folder lies beside it
     from verified import motions, paths
     from verified.bounds import Motions, Wrenches
-    from verified.distances import Apart
+    from verified.distances import Apart, Unfinished
     from verified.files import first_file, load
     from verified.forms import Refused, need, real, unpacked
     from verified.targets import Leaves
@@ -86,6 +86,7 @@ class Verdict:
     refuted: bool = False  # a configuration shows that the claim is false
     occurs: float = 0.0  # of a ceiling: a value that is attained, or less; of a floor, or more
     whichever: Fraction | None = None  # of a path: at least this part of the lock instants is proved for all locks
+    false: Fraction = Fraction(0)  # of a path: at this part of the lock instants nothing finishes it
 
     @property
     def sampled(self) -> bool:
@@ -112,7 +113,9 @@ class Verdict:
             best = f"{rounded(self.occurs * 1e6) / 1e6:.6f} occurs, at ({at})"
             if self.refuted:
                 return f"Refuted: {best}."
-        text = f"Proved: {per_cent(1 - self.undecided)}, undecided: {per_cent(self.undecided, up=True)}"
+        proved = 1 - self.undecided if self.whichever is None else min(x.whichever or 0 for x in self.parts or (self,))
+        text = f"Proved: {per_cent(Fraction(proved))}, undecided: {per_cent(self.undecided, up=True)}"
+        text = text.replace(", ", f", refuted: {per_cent(self.false)}, ", 1) if self.false else text
         text += " of all pairs of target and configuration" * bool(self.document["kind"] == "refutation")
         text += " of the lock instants" * bool(self.document["kind"] == "path") + " in the worst part" * bool(self.parts)
         if self.document["kind"] in ("ceiling", "floor"):
@@ -243,37 +246,47 @@ def _reach(document: dict[str, Any], sample: int | None, workers: int, tell: Cal
 
 
 def _path(document: dict[str, Any], sample: int | None, workers: int, tell: Callable[[int], None]) -> Verdict:
-    began, faults, every = time.perf_counter(), motions.Faults(document), list(paths.slabs(document))
+    began, kept = time.perf_counter(), document | {"locks": [lock | {"refutations": []} for lock in document["locks"]]}
+    tests = motions.Faults(kept), Unfinished(kept)
+    every: list[Any] = [(0, one) for one in paths.slabs(document)]
+    every += [(1, one) for one in paths.refutations(document)]
     order, room, picked = list(range(len(every))), sample, set[int]()
     random.SystemRandom().shuffle(order)
     while order and (room is None or room > 0):
         k = order.pop()
         picked.add(k)
-        room = None if room is None else room - len(every[k][3])
-    chosen = [slab for k, slab in enumerate(every) if k in picked]
-    _, bad = _looked_at(faults, iter(chosen), workers, tell, 8)
-    parts, broken = [], {(slab[0], slab[1][0]) for slab, _ in bad}
+        room = None if room is None else room - len(every[k][1][3])
+    chosen, bad = [one for k, one in enumerate(every) if k in picked], list[Any]()
+    for kind, test in enumerate(tests):
+        bad += [(kind, *one) for one in _looked_at(test, (one for x, one in chosen if x == kind), workers, tell, 8)[1]]
+    parts, broken = [], {(kind, one[0], one[1][0]) for kind, one, _ in bad}
     for which, lock in enumerate(document["locks"]):
-        spans = [ends for k, ends, *_ in every if k == which]
-        need(lock["proved"] == paths.text(paths.share(spans, document)), "volumes are not those of the slabs")
-        count, wrong = sum(len(q) for k, *_, q in chosen if k == which), sum(n for slab, n in bad if slab[0] == which)
-        spans = [one for one in spans if (which, one[0]) not in broken]
-        text = f"Lock of {document['arm']['joints'][lock['joint']]['name']}."
+        ours = [(kind, one[1]) for kind, one in every if one[0] == which]
+        proved, refuted = ([ends for x, ends in ours if x == kind] for kind in (0, 1))
+        both = [paths.share(spans, document) for spans in (proved, refuted)]
+        need([lock["proved"], lock["refuted"]] == [paths.text(x) for x in both], "volumes are not those of the slabs")
+        need(paths.share(proved + refuted, document) == sum(both), "lock instants are both proved and refuted")
+        proved, refuted = ([ends for x, ends in ours if x == kind and (kind, which, ends[0]) not in broken] for kind in (0, 1))
+        count, wrong = (
+            sum(len(one[3]) for _, one in chosen if one[0] == which),
+            sum(n for _, one, n in bad if one[0] == which),
+        )
+        text, gaps = f"Lock of {document['arm']['joints'][lock['joint']]['name']}.", paths.gaps(proved + refuted, document)
         parts.append(
             Verdict(
-                document=document | {"locked": lock["joint"], "claim": text, "gaps": paths.gaps(spans, document)},
-                leaves=sum(len(q) for k, *_, q in every if k == which), accepted=count - wrong, rejected=wrong,
-                seconds=0.0, undecided=1 - paths.share(spans, document), shadow=frozenset(),
-                whichever=paths.share(spans, document),
+                document=document | {"locked": lock["joint"], "claim": text, "left": paths.gaps(proved, document)},
+                leaves=sum(len(one[3]) for _, one in every if one[0] == which), accepted=count - wrong, rejected=wrong,
+                seconds=0.0, undecided=paths.share(gaps, document), shadow=frozenset(), false=paths.share(refuted, document),
+                whichever=paths.share(proved, document),
             )
         )  # fmt: skip
-    proved = min((lock["proved"] for lock in document["locks"]), key=Fraction)
-    volumes = {"proved": proved, "refuted": "0/1", "undecided": paths.text(1 - Fraction(proved))}
-    need(document["volumes"] == volumes, "volumes are not those of the worst lock")
-    left = [gap for part in parts for gap in part.document["gaps"]]
+    volumes = paths.volumes([(Fraction(lock["proved"]), Fraction(lock["refuted"])) for lock in document["locks"]])
+    need(document["volumes"] == volumes, "volumes are not those of the worst locks")
+    left = [gap for part in parts for gap in part.document["left"]]
     return Verdict(
         document=document, parts=tuple(parts), seconds=time.perf_counter() - began, shadow=frozenset(),
         undecided=max(part.undecided for part in parts), whichever=1 - paths.share(left, document),
+        false=max(part.false for part in parts),
         **{key: sum(getattr(part, key) for part in parts) for key in ("leaves", "accepted", "rejected")},
     )  # fmt: skip
 

@@ -59,6 +59,9 @@ TimeOption = Annotated[
     float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
 ]
 CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
+ReportOption = Annotated[
+    Path | None, typer.Option("--report", help="Write a page of what is proved into this HTML file.", show_default=False)
+]
 WorkersOption = Annotated[int, typer.Option("--workers", help="Processes; the certificate is the same.")]
 StoreOption = Annotated[
     Path | None,

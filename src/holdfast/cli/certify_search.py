@@ -12,11 +12,14 @@ from holdfast.cli.certify_options import REFUTED, REJECTED
 from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import NOT_MET
 from holdfast.cli.progress import progress_bar
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import drawn, printed, said
 
 
-def proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, **how: Any) -> None:
+def proved(
+    claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, report: Path | None = None, **how: Any
+) -> None:
     """Search, write, check, draw, print."""
+    from holdfast.certificates import PathProof
     from holdfast.present.certificates.console import state
 
     bar = progress_bar(as_json, "ten-thousandths")
@@ -24,12 +27,13 @@ def proved(claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None 
         proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
     file = proof.write(out)
     found = hf.check_certificate(file) if check and not stop() else None
-    printed(found or proof, as_json, [file, *drawn(proof, plot)])
+    page = [] if report is None else [proof.report(report, command=said(), check=found, file=file)]
+    printed(found or proof, as_json, [file, *drawn(proof, plot), *page])
     if stop():
         raise KeyboardInterrupt
     if found is not None and found.rejected:
         raise typer.Exit(REJECTED)
-    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound) and proof.refuted:
+    if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound | PathProof) and proof.refuted:
         raise typer.Exit(REFUTED)
     if not proof.ok:
         raise typer.Exit(NOT_MET)

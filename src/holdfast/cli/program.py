@@ -35,6 +35,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "index": "before.index",
     "ceiling": "before.ceiling",
     "synthesise": "before.synthesise",
+    "judge": "before.judge",
     "susceptibility": "before.susceptibility",
     "optimise": "before.optimise",
     "follow": "before.follow",

@@ -16,6 +16,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.control.c_functions import commented
 from holdfast.errors import InputError
 from holdfast.files.output import put
 from holdfast.kernels.program import SX
@@ -329,5 +330,4 @@ def _about(law: _Law, name: str, others: list[str]) -> str:
         "Returns 0; or 1 and zero rates where an input is not finite or the law has no answer (the arm is exactly singular).",
         "Gain, speed limit and joint limits are not in it. Compile without -ffast-math.",
     ]
-    safe = [x.replace("*/", "* /").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
-    return "/*\n" + "\n".join(f" * {x}".rstrip() for x in safe) + "\n */"
+    return commented(lines)

@@ -19,6 +19,9 @@ from holdfast.designs.gradient import Sensitivity as Sensitivity
 from holdfast.designs.gradient import sensitivity as sensitivity
 from holdfast.designs.joints import DesignJoints as DesignJoints
 from holdfast.designs.joints import LawOfDesigns as LawOfDesigns
+from holdfast.designs.judgement import Judgement as Judgement
+from holdfast.designs.judgement import Measured as Measured
+from holdfast.designs.judgement import judge as judge
 from holdfast.designs.planar import PlanarRest as PlanarRest
 from holdfast.designs.planar import Radial as Radial
 from holdfast.designs.search import design as design

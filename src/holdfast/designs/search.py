@@ -201,10 +201,10 @@ def region_poses(region: Region, count: int, seed: int) -> tuple[Array, Array | 
     Raises:
         InputError: A region of joints.
     """
-    return _drawn(region, count, seed, "sobol" if region.kind == "box" else "random")
+    return drawn_poses(region, count, seed, "sobol" if region.kind == "box" else "random")
 
 
-def _drawn(region: Region, count: int, seed: int, sampling: Any) -> tuple[Array, Array | None]:
+def drawn_poses(region: Region, count: int, seed: int, sampling: Any = "random") -> tuple[Array, Array | None]:
     """Poses (P, 4, 4) and their weights (P,), or None if all count alike."""
     if region.kind == "joints":
         raise InputError("a region of joints fixes the configurations, so designs have no poses to reach; give a box of poses")
@@ -330,7 +330,7 @@ class _Search:
     def fresh(self, values: Array, count: int) -> Parts:
         """Designs on poses that played no part, from random starts alone: index (D, P), reached (D, P), weights (P,) if any."""
         seed = int(np.random.SeedSequence(self.seed, spawn_key=(6,)).generate_state(1)[0])
-        poses, weights = _drawn(self.region, count, seed, "random")
+        poses, weights = drawn_poses(self.region, count, seed, "random")
         evaluator = Evaluator(self.family, poses, seed)
         found = Evaluated.joined([evaluator(v[None]) for v in values])
         return {

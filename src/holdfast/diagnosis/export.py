@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
+from holdfast.control.c_functions import Function, commented, filled, written
 from holdfast.control.export import check_name, quoted, version
-from holdfast.diagnosis import c_text, decision, kinds
+from holdfast.diagnosis import decision, kinds
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
@@ -95,20 +96,15 @@ def export_c(
     words |= {"VERSION": version(), "FINGERPRINT": arm.fingerprint, "DIGEST": digest, "RATE_HZ": repr(bounds.rate)}
     constants = {**words, **_constants(arm, bounds, known)}
     about = _about(arm, bounds, name, digest)
+    text_of = partial(filled, "holdfast.diagnosis", "c")
     texts = {
         f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_graph(arm, bounds, known, name)}\n'
-        + _filled(c_text.SOURCE, constants),
-        f"{name}.h": f"{about}\n" + _filled(c_text.HEADER, words),
-        f"{name}_example.c": _filled(c_text.EXAMPLE, words),
+        + text_of("monitor.c", constants),
+        f"{name}.h": f"{about}\n" + text_of("monitor.h", words),
+        f"{name}_example.c": text_of("monitor_example.c", words),
     }
     source, header, example = put(folder, texts)
     return ExportedMonitor(arm=arm, source=source, header=header, example=example, digest=digest)
-
-
-def _filled(text: str, words: dict[str, str]) -> str:
-    for word in sorted(words, key=len, reverse=True):
-        text = text.replace(word, words[word])
-    return text
 
 
 def _digest(bounds: Bounds, sensors: Sensors) -> str:
@@ -131,7 +127,6 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "DT": dt,
         "BAND": min(1.0, BAND * dt),
         "LOW": min(1.0, GAIN * dt),
-        "KEEP": 1 - GAIN * dt,
         "GAIN": GAIN,
         "SLIP": SLIP,
         "SLOW": SLOW,
@@ -173,34 +168,12 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     """Names, bounds, and what is computed of the arm's equations, by the graph that the Python monitor has."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
-    told = [pose[:3, :3].T, pose[:3, 3], kinematics.jacobian(arm, q)]  # a matrix is written column by column
-    functions = {"tool": ca.Function(f"{name}_tool_graph", [q], [ca.densify(ca.vec(x)) for x in told], {"cse": True})}
+    there = [pose[:3, :3].T, pose[:3, 3]]
+    functions = {"tool": Function({"q": q}, {"there": there, "jacobian": [kinematics.jacobian(arm, q)]})}
     if np.isfinite(bounds.torque).all():
-        terms = momentum_terms(bounds.body(arm), q, v)
-        functions["momentum"] = ca.Function(f"{name}_momentum_graph", [q, v], [ca.densify(x) for x in terms], {"cse": True})
-    generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
-    for function in functions.values():
-        generator.add(function)
-    # What is for loading the graph elsewhere goes; arguments that it does not need are no mistake.
-    outer = rf"^[a-z][\w ]*[ *]+{name}_\w+\((?:[^\n]*\}}|[^\n]*\{{\n.*?^\}})\n"
-    text = re.sub(outer, "", generator.dump(), flags=re.M | re.S)
-    text = re.sub(r"^(?:static const casadi_int|#define) casadi_s\d.*\n", "", text, flags=re.M)
-    text = re.sub(r"int mem\) ?\{\n", "int mem) {\n  (void)iw; (void)w; (void)mem;\n", text)
-    sizes = {"p": arm.n, "energy": arm.n, "gravity": arm.n, "there": 12, "jacobian": 6 * arm.n}
-    calls = {"tool": (["q"], ["there", "jacobian"], "there, there + 9, jacobian")}
-    calls["momentum"] = (["q", "v"], ["p", "energy", "gravity"], "p, energy, gravity")
-    for k, (call, function) in enumerate(functions.items()):
-        inputs, outputs, results = calls[call]
-        given = ", ".join([f"const double *{x}" for x in inputs] + [f"double {x}[{sizes[x]}]" for x in outputs])
-        text += f"""
-static void {call}({given}) {{
-    const double *arg[{max(function.sz_arg(), len(inputs))}] = {{{", ".join(inputs)}}};
-    double *res[{max(function.sz_res(), 3)}] = {{{results}}};
-    int iw[{max(function.sz_iw(), 1)}];
-    double w[{max(function.sz_w(), 1)}];
-    casadi_f{k}(arg, res, iw, w, 0);
-}}
-"""
+        terms = zip(("p", "energy", "gravity"), momentum_terms(bounds.body(arm), q, v), strict=True)
+        functions["momentum"] = Function({"q": q, "v": v}, {term: [x] for term, x in terms})
+    text = written(name, functions)
     joints = ", ".join(quoted(x) for x in arm.joint_names)
     text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
     text += _array("torque_bound", bounds.torque) + _array("tracking_bound", bounds.tracking)
@@ -221,5 +194,4 @@ def _about(arm: Arm, bounds: Bounds, name: str, digest: str) -> str:
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
         "Compile without -ffast-math.",
     ]
-    safe = [x.replace("*/", "* /").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
-    return "/*\n" + "\n".join(f" * {x}".rstrip() for x in safe) + "\n */"
+    return commented(lines)

@@ -105,7 +105,7 @@ class Monitor:
 
     def reset(self) -> None:
         """Forget everything: the next step is the first."""
-        self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
+        self._cycle, self._at, self._fast, self._seen, self._seen_at = 0, 0, 0, 0, 0
         self._v = self._r = self._p = self._gravity = self._tau = self._low = np.zeros(self.arm.n)
         self._q: Array | None = None
         self._reference: Array | None = None
@@ -134,9 +134,10 @@ class Monitor:
         self._cycle += 1
         if not np.isfinite(place + wanted).all() or (tau is not None and not np.isfinite(tau).all()):
             return self.verdict
-        self._observe(place, tau)
+        elapsed, self._at = (self._cycle - self._at) * self._dt, self._cycle  # longer after cycles that were passed over
+        self._observe(place, tau, elapsed)
         z = np.abs(self._r) / self.bounds.torque
-        y = self._tracking(wanted, place, alone=tau is None)
+        y = self._tracking(wanted, place, elapsed, alone=tau is None)
         self._over_z = np.maximum(0.0, self._over_z + (z - 1) * self._dt)
         self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
         seen = None if pose is None else self._look(place, np.asarray(pose, dtype=np.float64))
@@ -155,9 +156,9 @@ class Monitor:
                 self.verdict = self._alarm.verdict()
         return self.verdict
 
-    def _tracking(self, reference: Array, q: Array, *, alone: bool) -> Array:
+    def _tracking(self, reference: Array, q: Array, elapsed: float, *, alone: bool) -> Array:
         """In units of its bounds; with joint sensors alone NaN unless all references were slow for a while."""
-        if self._reference is not None and (np.abs(reference - self._reference) >= SLOW * self._dt).any():
+        if self._reference is not None and (np.abs(reference - self._reference) >= SLOW * elapsed).any():
             self._fast = self._cycle
         self._reference = reference
         if alone and self._cycle - self._fast < cycles(CALM, self._dt):
@@ -178,11 +179,11 @@ class Monitor:
         self._seen, self._seen_at = self._seen + 1, self._cycle
         return w, residual
 
-    def _observe(self, q: Array, tau: Array | None) -> None:
+    def _observe(self, q: Array, tau: Array | None, elapsed: float) -> None:
         n, dt = self.arm.n, self._dt
         first = self._q is None
         if self._q is not None:
-            self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / dt - self._v)
+            self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / elapsed - self._v)
         elif tau is not None:
             self._tau = self._low = tau
         self._q = q
@@ -193,5 +194,6 @@ class Monitor:
         p, energy, self._gravity = self._momentum(np.concatenate((q, self._v))).reshape(3, n)
         if not first:
             known = self._tau + energy - self._gravity - friction_torque(self._v, self.bounds.coulomb, self.bounds.viscous)
-            self._r = (1 - GAIN * dt) * self._r + GAIN * (p - self._p - dt * known)
+            gain = min(GAIN, 1 / elapsed)
+            self._r = max(0.0, 1 - GAIN * elapsed) * self._r + gain * (p - self._p - elapsed * known)
         self._p = p

@@ -161,6 +161,12 @@ class FaultInjector:
         self._brakes.append(one)
         self._apply()
 
+    def release(self, joint: str) -> None:
+        """Release a joint that was braked."""
+        j = self.joints.index(joint)
+        self._brakes = [one for one in self._brakes if one.joint != j]
+        self._apply()
+
     def before_step(self, time: float) -> None:
         """Let begin and end what does so by a time, s, and do what a fault does at every step."""
         self.time = time

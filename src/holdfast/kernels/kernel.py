@@ -31,7 +31,10 @@ def default_backend() -> str:
 
 
 def set_backend(name: str | None) -> None:
-    """Use a backend for all kernels made from now on; those that arms, indices and laws have made already keep theirs.
+    """Use a backend for all kernels made from now on.
+
+    A GPU also takes over what arms, indices and laws have made already, until another one is named or None; else those keep
+    theirs.
 
     Args:
         name: ``"llvm"``, ``"casadi"``, ``"cuda"`` or ``"cuda:1"``, as for :class:`holdfast.kernels.Kernel`; None: the default.
@@ -84,6 +87,7 @@ class Kernel:
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], *, backend: str | None = None) -> None:
         self._take(Program(name, inputs, outputs), backend or default_backend())
+        self._fixed = backend is not None
 
     @classmethod
     def of(cls, program: Program) -> Kernel:
@@ -108,12 +112,20 @@ class Kernel:
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
 
+    _fixed = False  # whether its backend was named when it was made
+
+    def now(self) -> Kernel:
+        """Itself, or the same on the GPU that :func:`set_backend` has named since it was made."""
+        moves = _chosen is not None and _chosen != self.backend and not self._fixed and _chosen.startswith("cuda")
+        return self.on(str(_chosen)) if moves else self
+
     def on(self, backend: str) -> Kernel:
         """The same kernel on another backend, made once."""
         made = self._elsewhere.get(backend)
         if made is None:
             made = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
             made._take(self.program, backend)
+            made._fixed = True
         return made
 
     @property
@@ -156,9 +168,9 @@ class Kernel:
         return self._evaluate(*self._read(inputs))
 
     def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
-        count = 1 if rows is None else rows
-        if self._on_device is not None:
-            out = self._on_device.rows(arrays, count, self.program.n_out if first is None else first)
+        count, on_device = 1 if rows is None else rows, self.now()._on_device
+        if on_device is not None:
+            out = on_device.rows(arrays, count, self.program.n_out if first is None else first)
             return out, bool(np.isnan(out[:, 0]).any())
         out = np.empty((count, self.program.n_out if first is None else first))
         if 0 < count <= self._chunk:
@@ -225,8 +237,8 @@ class Kernel:
                     f"kernel '{self.name}': columns have shape {a.shape} and type {a.dtype}; they must be contiguous doubles "
                     f"of shape ({rows}, W), W a multiple of {self.lanes}"
                 )
-        if self._on_device is not None:
-            on_device = self._on_device
+        on_device = self.now()._on_device
+        if on_device is not None:
             return lambda: on_device.columns(inputs[:, :used], outputs[:, :used])
         assert self._compiled is not None
         return self._compiled.bound(inputs, outputs, used)
@@ -245,11 +257,26 @@ class Kernel:
             KernelError: The kernel is not on a GPU.
             InputError: An input that is not such an array, or of a wrong shape.
         """
-        if self._on_device is None:
-            raise KernelError(f"kernel '{self.name}' is on the processor; make it with backend='cuda' for arrays on a GPU")
+        on_device = self._gpu()
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
-        return self._on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
+        return on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
+
+    def upload(self, array: ArrayLike, stream: int = 1) -> Any:
+        """A copy of an array of the host on the kernel's GPU, for :meth:`exchange`.
+
+        Raises:
+            KernelError: The kernel is not on a GPU.
+        """
+        from holdfast.kernels.gpu.arrays import DeviceArray
+
+        return DeviceArray.of(np.asarray(array, dtype=np.float64), self._gpu().device, stream or 1)
+
+    def _gpu(self) -> Any:
+        on_device = self.now()._on_device
+        if on_device is None:
+            raise KernelError(f"kernel '{self.name}' is on the processor; make it with backend='cuda' for arrays on a GPU")
+        return on_device
 
     def single(self) -> Single:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""

@@ -106,16 +106,15 @@ class Loop:
             over: Is told of how many rows more have come within the tolerance, from any thread.
         """
         rows = len(state)
-        if self.step._on_device is not None:
+        on_device = self.step.now()._on_device
+        if on_device is not None:
             with Count(f"starts of {self.step.name}", rows) as told:
 
                 def ended(all_of: int, within: int) -> None:
                     told(all_of)
                     over(within)
 
-                found = self.step._on_device.iterate(
-                    state, parameters, tolerance, most=most_steps, ahead=self.ahead, ended=ended
-                )
+                found = on_device.iterate(state, parameters, tolerance, most=most_steps, ahead=self.ahead, ended=ended)
             return LoopResult(state=found[0], residual=found[1], done=found[2], steps=found[3])
         workers = min(thread_count(), -(-rows // _LEAST))
         batch = _Batch(state, parameters, tolerance, most_steps)

@@ -116,14 +116,16 @@ def story(result: Result) -> Story:
 
 
 @says("drawing the report")
-def write(result: Result, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Path:
+def write(
+    result: Result, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None, said: Story | None = None
+) -> Path:
     """The answer, the figures and the tables, how it was computed, and the same run again.
 
-    The figures are drawn anew if they are not given.
+    The figures are drawn anew if they are not given; what is said is what the result's own presenter says.
     """
     from holdfast.report import page
 
-    said: Story = result._presented("story")
+    said = said or result._presented("story")
     pictures: dict[str, list[page.Block]] = {}
     for name, figure in (result.figures() if drawn is None else drawn).items():
         told = said.figures.get(name, ("What was found", ""))

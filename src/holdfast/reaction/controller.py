@@ -27,6 +27,7 @@ AT_ONCE = 0.020  # s after the alarm: a joint that does not move, or runs away, 
 STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and so much off its reference
 BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking
 SLOW, HALF = 0.3, 0.5  # of the commanded speed
+TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was thought
 QUIET = 1.0  # s after which a contact is over
 SPARE = 1.2  # a weak motor must carry gravity so many times
 SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
@@ -45,6 +46,10 @@ class Brakes(Protocol):
 
     def brake(self, joint: str) -> None:
         """Stop one where it is."""
+        ...
+
+    def release(self, joint: str) -> None:
+        """Release it again."""
         ...
 
 
@@ -87,6 +92,10 @@ class Controller:
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
         self._poses: list[tuple[Array, Array]] = []
         self._planned: Planned | None = None
+        self._way = 0.0  # 1 or -1: the joint that was braked was to go up or down
+        self._doubted = True  # what is wrong with it may be less than was thought
+        self._trial: int | None = None  # a joint whose brake was released again
+        self._lower, self._upper = self.arm.lower.copy(), self.arm.upper.copy()
         self._effort = np.array([joint.effort for joint in self.arm.joints])
         self._most = np.array([joint.velocity for joint in self.arm.joints])
         self._commanded = np.zeros(self.arm.n)
@@ -94,13 +103,15 @@ class Controller:
     @property
     def reacted(self) -> bool:
         """What is wrong is known, and nothing is left to be watched for."""
-        return self._decided or self.over
+        return (self._decided and self._trial is None) or self.over
 
     @property
     def degraded(self) -> Degraded | None:
         """What is left of the arm, as the controller knows it."""
-        held = {j: self._last[j] for j in np.flatnonzero(self.law.mask == 0)}
-        return Degraded(self.arm, locked={int(j): float(x) for j, x in held.items()}) if held else None
+        held = {int(j): float(self._last[j]) for j in np.flatnonzero(self.law.mask == 0)}
+        cut = np.flatnonzero((self._lower > self.arm.lower) | (self._upper < self.arm.upper))
+        ranges = {int(j): (self._lower[j], self._upper[j]) for j in cut if j not in held}
+        return Degraded(self.arm, locked=held, ranges=ranges) if held or ranges else None
 
     def believed(self, told: Array) -> Array:
         """Where the joints are, by sensors that are believed."""
@@ -118,7 +129,7 @@ class Controller:
         if not np.isfinite(wanted).all():
             wanted = np.zeros(self.arm.n)
         wanted = wanted / max(1.0, float((np.abs(wanted) / self._most).max()))
-        low, high = (np.sqrt(2 * ACCELERATION * np.maximum(room, 0.0)) for room in (q - self.arm.lower, self.arm.upper - q))
+        low, high = (np.sqrt(2 * ACCELERATION * np.maximum(room, 0.0)) for room in (q - self._lower, self._upper - q))
         wanted = np.minimum(np.maximum(wanted, -low), high)
         change = ACCELERATION * dt
         self._commanded = self.law.mask * np.clip(wanted, self._commanded - change, self._commanded + change)
@@ -164,7 +175,15 @@ class Controller:
             wanted: (n,) commanded ones.
             gravity: (n,) torques, N m and N.
         """
-        if self._decided or self.over:
+        if self.reacted:
+            return
+        if self._trial is not None:
+            assert self._tracking is not None
+            j = self._trial
+            if abs(behind[j]) > FAR_OFF * self._tracking[j]:
+                self._trial, self._planned = None, None
+                self._brake(time, self.arm.joint_names[j], "it does not follow")
+                self._stop(time, "what is left does not reach the target")
             return
         if time > self._quiet:
             self._act(time, "resume", "no joint was named")
@@ -188,6 +207,8 @@ class Controller:
                 self._stop(time, "the joint is not known")
             return
         i = self.arm.joint_index(verdict.joint)
+        self._doubted = verdict.kind != "sensor"
+        self._way = float(np.sign(wanted[i]))
         if verdict.kind in _EASED:
             if self.pace == HALF:
                 self._decided = time > self._alarm + FINAL
@@ -260,7 +281,7 @@ class Controller:
             rows[:, j] += (c * along).sum() / max(float((along**2).sum()), 1e-12)
         off = float(np.mean([row[j] - q[j] for row, (q, _) in zip(rows, self._poses, strict=True)]))
         if abs(off) > SLACK:
-            self._true[int(j)] = float(rows[-1, j])
+            self._true[int(j)] = float(rows[:, j].mean())  # it stands, whatever its sensor does
             factor, unit = self.arm.joints[int(j)].shown
             why = f"by the tool's pose it is {factor * off:.3g} {unit} off what its sensor says"
             self._act(time, "measure", why, joint=self.arm.joint_names[int(j)])
@@ -272,8 +293,36 @@ class Controller:
         self._plans = False  # once
         found = planned(self._made_for, q, self.law.pose, left, time=time)
         if isinstance(found, str):
-            self._stop(time, found)
-            return np.zeros(self.arm.n)
+            tried = self._tried(time, q)
+            if tried is None:
+                self._stop(time, found)
+                return np.zeros(self.arm.n)
+            found = tried
         self._act(time, "plan", f"the law ended elsewhere; a route of {found.waypoints} waypoints takes {found.duration:.3g} s")
         self._planned = found
         return found.rates(time, q)
+
+    def _tried(self, time: float, q: Array) -> Planned | None:
+        """A slow route for the braked joint too: at a stop, or slow, it looks as a joint does that drives nothing.
+
+        It is not sent on the way that it was to go, if there is a route without. Nothing is lost: else the arm stops here.
+        """
+        braked = np.flatnonzero(self.law.mask == 0)
+        if self._react != "chain" or not self._doubted or len(braked) != 1 or int(braked[0]) in self._true:
+            return None
+        j, joint = int(braked[0]), self.arm.joint_names[int(braked[0])]
+        ends = max(self.arm.lower[j], q[j] - 2 * np.pi), min(self.arm.upper[j], q[j] + 2 * np.pi)
+        for way in dict.fromkeys((self._way, 0.0)):
+            low, high = q[j] if way < 0 else ends[0], q[j] if way > 0 else ends[1]
+            if not ends[0] <= low < high <= ends[1]:
+                continue
+            left = Degraded(self.arm, ranges={j: (low, high)})
+            found = planned(self._made_for, q, self.law.pose, left, time=time, pace=TRIAL)
+            if not isinstance(found, str):
+                self._trial, self.law.mask[j], self.pace = j, 1.0, TRIAL
+                self._lower[j], self._upper[j] = low, high
+                self._brakes.release(joint)
+                why = "there is no route without it; slowly, as far as it follows"
+                self._act(time, "release", why, joint=joint)
+                return found
+        return None

@@ -70,7 +70,9 @@ def simulate_faults(
       1.2 times the arm's weight is braked;
     * where something pushes the arm it goes on at 0.3 of the speed, and after 1 s as before;
     * where the law ends off the target, :func:`holdfast.recover` plans a route, once; planning takes no simulated time. If
-      it finds no route, the arm stops.
+      it finds no route, but would find one with the braked joint, the brake is released, once, and the arm follows that route
+      slowly: a joint at a stop, or with a slow motor, looks like one that drives nothing. If the joint does not follow it is
+      braked again. Else the arm stops.
 
     A brake stops its joint at once. One fault at a time is looked for.
 

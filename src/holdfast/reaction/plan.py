@@ -55,7 +55,7 @@ class Planned:
         return np.asarray(step * (6 * x * (1 - x) / span) + PULL * (self.q[k] + x * x * (3 - 2 * x) * step - q))
 
 
-def planned(law: Law, q: Array, target: Array, left: Degraded, *, time: float) -> Planned | str:
+def planned(law: Law, q: Array, target: Array, left: Degraded, *, time: float, pace: float = 1.0) -> Planned | str:
     """A route to the target, or a phrase with what is in its way.
 
     Args:
@@ -64,6 +64,7 @@ def planned(law: Law, q: Array, target: Array, left: Degraded, *, time: float) -
         target: (4, 4) m, world.
         left: What is left of the arm.
         time: s, now. Planning takes none: the arm waits.
+        pace: Fraction of the usual speed.
     """
     arm = law.arm
     found = recover(arm, left, np.clip(q, arm.lower, arm.upper), goal=target, task=law.task, samples=0, clearance=False)
@@ -76,4 +77,4 @@ def planned(law: Law, q: Array, target: Array, left: Degraded, *, time: float) -
     if law.speed_limit is not None:
         chords = np.linalg.norm(np.diff(arm.forward_kinematics(found.q)[:, :3, 3], axis=0), axis=1)
         seconds = np.maximum(seconds, _PEAK * chords / law.speed_limit)
-    return Planned(start=time, q=found.q, at=time + np.r_[0.0, np.maximum(seconds, 1e-3).cumsum()])
+    return Planned(start=time, q=found.q, at=time + np.r_[0.0, np.maximum(seconds / pace, 1e-3).cumsum()])

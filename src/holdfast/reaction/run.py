@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 React = Literal["none", "stop", "chain", "known"]
 Ended = Literal["reached", "stopped", "missed", "unstable"]
-What = Literal["alarm", "slow", "resume", "brake", "measure", "plan", "follow", "stop"]
+What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "plan", "follow", "stop"]
 
 _ENDS = {
     "reached": "the tool reached its target",
@@ -50,8 +50,8 @@ class Action:
 
     Attributes:
         time: s.
-        what: ``alarm``, ``slow``, ``resume``, ``brake`` (and leave the joint out of the law), ``measure`` (where a braked joint
-            is, by the tool), ``plan``, ``follow`` (the plan) or ``stop``.
+        what: ``alarm``, ``slow``, ``resume``, ``brake`` (and leave the joint out of the law), ``release`` (it is tried again),
+            ``measure`` (where a braked joint is, by the tool), ``plan``, ``follow`` (the plan) or ``stop``.
         why: A phrase.
         joint: Its name; None where it is not of one joint.
     """

@@ -20,6 +20,7 @@ from holdfast.indices.objective import Objective
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.notice import Count, says
 from holdfast.result import Result
+from holdfast.solvers.anywhere import STARTS, best_of_all
 from holdfast.solvers.optimum import Optimum, default_starts, objective_ascent
 from holdfast.status import Status
 from holdfast.words import counted, number
@@ -39,7 +40,8 @@ class Optima(Optimum, Result):
     Attributes:
         objective: By which configurations were chosen.
         task: The rows of the pose that are kept.
-        poses: (N, 4, 4) in the world.
+        free: No pose was given: the best configuration of all.
+        poses: (N, 4, 4) in the world; where none was given that of the best configuration.
         initial: (N, n) configurations of the poses that were given to compare with, or None.
         clearance: What the arm is kept clear of, itself and its cell, or None.
         margin: Smallest clearance, m.
@@ -48,6 +50,7 @@ class Optima(Optimum, Result):
 
     objective: Objective
     task: Task
+    free: bool
     poses: Array
     initial: Array | None
     clearance: Clearance | None
@@ -70,7 +73,7 @@ class Optima(Optimum, Result):
 
     @property
     def before(self) -> Array:
-        """(N, n) the configurations given, or the first that were found; NaN where none was."""
+        """(N, n) the configurations given, or the first that were found (of all, the best random one); NaN where none was."""
         return np.where(self.success[..., None], self.start_q, np.nan) if self.initial is None else self.initial
 
     @property
@@ -146,7 +149,7 @@ class Optima(Optimum, Result):
 @says("optimising configurations")
 def optimise(
     arm: Arm,
-    poses: ArrayLike,
+    poses: ArrayLike | None,
     objective: Objective,
     *,
     seed: int = 0,
@@ -163,11 +166,13 @@ def optimise(
 
     Args:
         arm: The arm.
-        poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met.
+        poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met. None: any pose will do, and the best
+            configuration of all within the limits is looked for.
         objective: An index, a susceptibility or a weighted sum of them; it knows whether larger or smaller is better.
         seed: The same seed gives the same result, whatever the number of threads and of other poses behind.
         starts: Random starts per pose; more find better optima (the problem has many). Default: 128, or 32 for a
-            redundancy of 2 or more. Where fewer than half of them reach the pose, up to seven times as many follow.
+            redundancy of 2 or more. Where fewer than half of them reach the pose, up to seven times as many follow. Without
+            poses: 10,000, the best of twenty times as many random configurations.
         restarts: Random starts of inverse kinematics before a pose counts as not found.
         tolerance: Largest pose error, m and rad.
         task: Rows of the pose to keep. Default: those of the objective, or ``pose`` if it is not of a task.
@@ -189,10 +194,14 @@ def optimise(
 
     Source: Abdi et al. 2012, eq. (11), (12).
     """
-    targets = check_poses(poses)
+    asked = np.eye(4) if poses is None else poses
+    free, targets = poses is None, check_poses(asked)
     given = None if initial is None else arm.check_configurations(initial)
-    if given is not None and given.shape[:-1] != np.shape(poses)[:-2]:
-        raise InputError(f"initial has shape {given.shape}, poses have {np.shape(poses)}; give one configuration of each pose")
+    if given is not None and given.shape[:-1] != np.shape(asked)[:-2]:
+        raise InputError(
+            f"initial has shape {given.shape}, {'no poses are given' if free else f'poses have {np.shape(asked)}'}; "
+            f"give one configuration{'' if free else ' of each pose'}"
+        )
     if objective.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the objective belongs to '{objective.arm.name}', not to '{arm.name}'; make it with the same arm")
     kept = chosen_clearance(arm, clearance, cell, looks=False)
@@ -203,14 +212,16 @@ def optimise(
         raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), kept, margin)
+    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), kept, margin, free)
     within = ascent.engine.within(tolerance)
-    most = default_starts(arm, ascent.task) if starts is None else starts
+    most = (STARTS if free else default_starts(arm, ascent.task)) if starts is None else starts
     blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
 
     def work(number: int) -> Optimum:
         part = targets[blocks[number]]
         first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
+        if free:
+            return best_of_all(ascent, first, most)
         reach = ascent.engine.solve(part, first, restarts, within)
         found = ascent.solve(part, reach, others, most, within)
         tell(len(part))
@@ -221,13 +232,14 @@ def optimise(
             parts = [work(k) for k in range(len(blocks))]
         else:
             parts = list(pool().map(work, range(len(blocks))))
-    single = np.ndim(poses) == 2
+    single = np.ndim(asked) == 2
     arrays = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Optimum)}
     return Optima(
         **{name: value[0] if single else value for name, value in arrays.items()},
         objective=objective,
         task=ascent.task,
-        poses=targets[0] if single else targets,
+        free=free,
+        poses=arm.forward_kinematics(arrays["q"][0]) if free else targets[0] if single else targets,
         initial=given,
         clearance=kept,
         margin=margin,

@@ -89,7 +89,12 @@ class Optimum:
 
 
 def ascent_step(
-    objective: Objective, task: Task, clearance: Clearance | None = None, margin: float = 0.0, around: bool = False
+    objective: Objective,
+    task: Task,
+    clearance: Clearance | None = None,
+    margin: float = 0.0,
+    around: bool = False,
+    free: bool = False,
 ) -> tuple[list[SX], SX]:
     """One step of the ascent, of an arm whose geometry may be symbols.
 
@@ -99,6 +104,7 @@ def ascent_step(
         clearance: Of the arm from itself.
         margin: Smallest clearance, m.
         around: There are objects too. What room they leave is an input, so that no step is compiled for a cell.
+        free: No pose is kept: every joint may move by itself.
 
     Returns:
         Symbols of the configuration (n,), the trust radius, the last step (n,) and the pose, position (3,) and rotation
@@ -110,13 +116,12 @@ def ascent_step(
     last = ca.SX.sym("last", arm.n)
     j = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
     qr = householder(j)
-    rows = qr.null_rows()
-    free = arm.n - task.m
-    directions = [ca.vertcat(*[rows[k][c] for k in range(arm.n)]) for c in range(free)]
+    rows = [ca.horzsplit(x) for x in ca.vertsplit(ca.SX.eye(arm.n))] if free else qr.null_rows()
+    directions = [ca.vertcat(*column) for column in zip(*rows, strict=True)]
     parts = objective.parts(q, j, qr, directions)
     # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
     e, full = task_error(arm, task, q, p, r)
-    back = damped_least_norm(full, e, 1e-12)
+    back = ca.SX.zeros(arm.n) if free else damped_least_norm(full, e, 1e-12)
     big = 1e3  # stands for no limit: far beyond any trust region
     rows_kept: list[list[SX]] = []
     room: list[tuple[SX, SX]] = []
@@ -148,9 +153,11 @@ def ascent_step(
 
 
 @recalled
-def step_kernel(objective: Objective, task: Task, clearance: Clearance | None, margin: float, around: bool) -> Kernel:
+def step_kernel(
+    objective: Objective, task: Task, clearance: Clearance | None, margin: float, around: bool, free: bool
+) -> Kernel:
     """:func:`ascent_step`, compiled; what an objective measures comes last."""
-    inputs, step = ascent_step(objective, task, clearance, margin, around)
+    inputs, step = ascent_step(objective, task, clearance, margin, around, free)
     measured = objective.measured
     return Kernel(f"ascent of {objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
 
@@ -158,22 +165,31 @@ def step_kernel(objective: Objective, task: Task, clearance: Clearance | None, m
 class Ascent:
     """The compiled step of one objective: towards the best configuration, back onto the pose, within the limits.
 
-    Where the task leaves no freedom there is nothing to climb, and the best of the configurations found is chosen.
+    Where the task leaves no freedom there is nothing to climb, and the best of the configurations found is chosen. A free
+    ascent keeps no pose (:mod:`holdfast.solvers.anywhere`).
     """
 
-    def __init__(self, objective: Objective, task: Task, clearance: Clearance | None = None, margin: float = 0.0) -> None:
+    def __init__(
+        self, objective: Objective, task: Task, clearance: Clearance | None = None, margin: float = 0.0, free: bool = False
+    ) -> None:
         self.objective, self.task, self.arm = objective, task, objective.arm
-        self.clearance, self.margin = clearance, margin
+        self.clearance, self.margin, self.free = clearance, margin, free
         self.engine: InverseKinematics = solver(self.arm, task)
-        self._step = step_kernel(objective, task, None, 0.0, False) if self.arm.n > task.m else None
+
+    @cached_property
+    def _step(self) -> Kernel | None:
+        if self.arm.n <= self.task.m and not self.free:
+            return None
+        return step_kernel(self.objective, self.task, None, 0.0, False, self.free)
 
     @cached_property
     def _clear_step(self) -> Kernel:
         """The step that also keeps the arm clear: compiled once it is needed, and for a changed cell not again."""
         assert self.clearance is not None
-        return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, self.clearance.obstacles is not None)
+        around = self.clearance.obstacles is not None
+        return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, around, self.free)
 
-    def _climb(self, clear: bool, q: Array, poses: Array, steps: int, radius: Array | None = None) -> tuple[Array, Array]:
+    def climb(self, clear: bool, q: Array, poses: Array, steps: int, radius: Array | None = None) -> tuple[Array, Array]:
         """Steps from q (N, n); returns where they led and the last trust radius."""
         n = self.arm.n
         trust = np.full(len(q), RADIUS) if radius is None else radius
@@ -195,7 +211,7 @@ class Ascent:
             state[bad] = before[bad]
         return state[:, :n], state[:, n]
 
-    def _oriented(self, q: Array) -> Array:
+    def oriented(self, q: Array) -> Array:
         """The objective with its sign turned so that larger is better."""
         value = self.objective(q)
         return value if self.objective.better == "larger" else -value
@@ -207,20 +223,21 @@ class Ascent:
 
         The value is -inf where the end is not on its pose or, if asked, not clear.
         """
-        q, radius = self._climb(clear, q, poses[owner], FIRST_STEPS)
-        value = self._oriented(q)
-        keep = best_of_each(owner, np.where(self._is_clear(q), value, -np.inf) if clear else value, _KEPT)
+        q, radius = self.climb(clear, q, poses[owner], FIRST_STEPS)
+        value = self.oriented(q)
+        keep = best_of_each(owner, np.where(self.is_clear(q), value, -np.inf) if clear else value, _KEPT)
         owner, q, radius = owner[keep], q[keep], radius[keep]
-        q, _ = self._climb(clear, q, poses[owner], LAST_STEPS, radius)
+        q, _ = self.climb(clear, q, poses[owner], LAST_STEPS, radius)
         # Far below the tolerance, so that the pose does not pay for the value.
         q, _ = self.engine.attempt(q, poses[owner], 1e-3 * tolerance)
         q = joint_space.wrapped(self.engine.arm, q)
         good = self.engine.verdict(q, poses[owner], tolerance)
         if clear:
-            good &= self._is_clear(q)
-        return owner, q, np.where(good, self._oriented(q), -np.inf)
+            good &= self.is_clear(q)
+        return owner, q, np.where(good, self.oriented(q), -np.inf)
 
-    def _is_clear(self, q: Array) -> NDArray[np.bool_]:
+    def is_clear(self, q: Array) -> NDArray[np.bool_]:
+        """(N,) True where q (N, n) leaves the margin."""
         assert self.clearance is not None
         return np.asarray(self.clearance.room(q) >= self.margin)
 
@@ -277,7 +294,7 @@ class Ascent:
         blocked_by = np.full(count, -1, dtype=np.int64)
         status = first.status.copy()
         if reached.size:
-            best[reached] = self._oriented(first.q[reached])
+            best[reached] = self.oriented(first.q[reached])
         start_value = sign * best
         if reached.size:
             owner, q = self._started(poses, first, seed, starts, tolerance)
@@ -299,16 +316,16 @@ class Ascent:
 
             choose(*self._followed(owner, q, poses, tolerance, clear=False), reached)
             if self.clearance is not None:
-                blocked[reached] = ~self._is_clear(best_q[reached])
+                blocked[reached] = ~self.is_clear(best_q[reached])
                 again = np.flatnonzero(blocked)
                 if again.size:
                     blocked_by[again] = self.clearance.closest_pair(best_q[again])
                     # Only the poses whose best configuration is not clear are climbed once more.
                     best[again], best_q[again], agreeing[again] = -np.inf, np.nan, 0.0
                     mine = blocked[owner]
-                    mine[mine] = self._is_clear(q[mine])
+                    mine[mine] = self.is_clear(q[mine])
                     if mine.any():
-                        choose(owner[mine], q[mine], self._oriented(q[mine]), again)
+                        choose(owner[mine], q[mine], self.oriented(q[mine]), again)
                         choose(*self._followed(owner[mine], q[mine], poses, tolerance, clear=True), again)
                     hopeless = again[best[again] == -np.inf]
                     status[hopeless] = Status.INFEASIBLE
@@ -353,9 +370,13 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
 
 
 def objective_ascent(
-    objective: Objective, task: Task | None = None, clearance: Clearance | None = None, margin: float = 0.0
+    objective: Objective,
+    task: Task | None = None,
+    clearance: Clearance | None = None,
+    margin: float = 0.0,
+    free: bool = False,
 ) -> Ascent:
-    """The compiled ascent of an objective, made once for each task, clearance and margin.
+    """The compiled ascent of an objective, made once for each task, clearance and margin; free: it keeps no pose.
 
     Raises:
         TaskError: A task other than the objective's own.
@@ -365,7 +386,7 @@ def objective_ascent(
         raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
     chosen = own or task or as_task(objective.arm, "pose")
     made: dict[object, Ascent] = objective._ascents
-    key = (chosen.rows.tobytes(), chosen.frame, clearance, margin)
+    key = (chosen.rows.tobytes(), chosen.frame, clearance, margin, free)
     if key not in made:
-        made[key] = Ascent(objective, chosen, clearance, margin)
+        made[key] = Ascent(objective, chosen, clearance, margin, free)
     return made[key]

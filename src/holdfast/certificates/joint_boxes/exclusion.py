@@ -20,7 +20,7 @@ from holdfast.certificates.crew import Effort
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index, need_room
 from holdfast.certificates.joint_boxes.jobs import halved
 from holdfast.certificates.joint_boxes.rows import Rows
-from holdfast.certificates.joint_boxes.segments import Segment
+from holdfast.certificates.joint_boxes.segments import Segment, points_on_axes
 from holdfast.certificates.taylor import Chain, Reach
 
 Array = NDArray[np.float64]
@@ -95,7 +95,9 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) ->
         chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
     box, lemmas, tested, rows = np.vstack([joints, claim.box]), list[Lemma](), 0, Rows(claim, joints)
     place = claim.box[: rows.reach.linear]
-    points = [] if claim.arm.prismatic.any() else _points(chain, joints, rng)[:_MOST_LEMMAS]  # lemmas are of joints that turn
+    points = (
+        [] if claim.arm.prismatic.any() else points_on_axes(chain, joints, rng)[:_MOST_LEMMAS]
+    )  # lemmas are of joints that turn
     for link, point in points:
         lemma, nodes = _lemma(chain, joints, place, link, point, effort.end, rng)
         tested += nodes
@@ -159,20 +161,6 @@ class _Apart:
         bound, gap, each = self.rows.nearest(middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:])
         take(rows, 0, bound, gap, each, n)
         return found, gain
-
-
-def _points(chain: Chain, joints: Array, rng: np.random.Generator) -> list[tuple[int, Array]]:
-    """Links and points of theirs, each the point of the next axis that is nearest to the one behind it: (link, (3,))."""
-    n, made = len(chain.lengths), list[tuple[int, Array]]()
-    q, before = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
-    for k in range(n):
-        near = chain.nearest(k) if k + 1 < n else None  # of parallel axes, and the last one, the height of what comes next
-        point = chain.origins[k] + chain.rotations[k][:, 2] * (near[0] if near else chain.origins[k + 1][2])
-        at = Segment.of(chain, 0, k, point).frames(q[:, :k])[0]
-        if np.abs(at - before).max() > 1e-6:
-            made.append((k, point))
-        before = at
-    return made
 
 
 def _lemma(

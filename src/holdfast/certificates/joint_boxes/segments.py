@@ -141,6 +141,20 @@ class Segment:
         return np.sqrt(2 * bound), d, each
 
 
+def points_on_axes(chain: Chain, joints: Array, rng: np.random.Generator) -> list[tuple[int, Array]]:
+    """Links and points of theirs, each the point of the next axis that is nearest to the one behind it: (link, (3,))."""
+    n, made = len(chain.lengths), list[tuple[int, Array]]()
+    q, before = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
+    for k in range(n):
+        near = chain.nearest(k) if k + 1 < n else None  # of parallel axes, and the last one, the height of what comes next
+        point = chain.origins[k] + chain.rotations[k][:, 2] * (near[0] if near else chain.origins[k + 1][2])
+        at = Segment.of(chain, 0, k, point).frames(q[:, :k])[0]
+        if np.abs(at - before).max() > 1e-6:
+            made.append((k, point))
+        before = at
+    return made
+
+
 def costs(slope: Array, second: Array, half: Array) -> tuple[Array, Array]:
     """Of each variable what slope and own curvature cost (N, k), and its part in all pairs (N, k): half of them is the sum.
 

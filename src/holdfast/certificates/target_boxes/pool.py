@@ -76,7 +76,7 @@ class Pool:
             if monotonic() > self._until:
                 break
             other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
-            size = Form.at(self._reach, other, targets).scale(half)
+            size = Form.at(self._reach, other, targets).scale(half, best if k else None)
             better = size > best
             q[better], best[better] = other[better], size[better]
         return q

@@ -20,9 +20,11 @@ Tell = Callable[[float], None]
 
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _STEPS = 6  # along self-motions
-_AT_ONCE = 512
+_AT_ONCE = 2048
 _LEAST_TURN = 1e-3  # rad: a tool turned away by less may come to its target
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
+_MOVED = 14 / 16  # of its cell: where a configuration proves more, it is moved to prove all
+_FAIR = 0.5  # of its cell: where one proves more, others on its self-motion are tried
 _LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
 
 _SMALL = 0.75  # of all halvings
@@ -139,7 +141,7 @@ class Search:
     def _along_self_motions(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
         """In place: cells nearly proved or not at all, and the smallest, try configurations on the self-motions of theirs."""
         for _ in range(_STEPS * self.reach.redundant):
-            which = np.flatnonzero(~found & ((part > 0.5) | smallest | (part == 0)))
+            which = np.flatnonzero(~found & ((part > _FAIR) | smallest | (part == 0)))
             if not which.size:
                 break
             self._improve(q, found, part, which, stepped(self.reach, q[which], self.rng), centre, half)
@@ -148,23 +150,28 @@ class Search:
         self, q: Array, found: Flags, part: Array, which: NDArray[np.intp], begin: Array, centre: Array, half: Array
     ) -> None:
         """In place: what is found from other configurations is taken where it proves more."""
-        other, good, more = self._tried(begin, centre[which], half[which])
+        other, good, more = self._tried(begin, centre[which], half[which], np.minimum(part[which], _MOVED))
         better = good | (more > part[which])
         q[which[better]], found[which[better]], part[which[better]] = other[better], good[better], more[better]
 
-    def _tried(self, q: Array, centre: Array, half: Array) -> tuple[Array, Flags, Array]:
-        """Rounded configurations near q (N, n), which of the cells they prove, and how much of the others, by width."""
+    def _tried(self, q: Array, centre: Array, half: Array, least: Array | None = None) -> tuple[Array, Flags, Array]:
+        """Rounded configurations near q (N, n), which of the cells they prove, and how much of the others, by width.
+
+        ``least`` (N,): Less than that is told to be that.
+        """
         targets = centre[:, : self.reach.axes]
         q = self._rounded(self.reach.solved(self.reach.placed(q, centre), targets), centre)
         form = Form.at(self.reach, q, targets)
-        found, sections = form.proved(half)
+        found, _ = form.proved(half)
         part = found.astype(float)
         rest = np.flatnonzero(~found)
         if rest.size:
-            part[rest] = form.take(rest).scale(half[rest])
+            part[rest] = form.take(rest).scale(half[rest], None if least is None else least[rest])
             # The error in the middle may cancel half of the curvature.
-            near = rest[part[rest] > 0.5]
-            above, below, _ = form.take(near).sides(half[near], sections[near])
+            near = rest[part[rest] > _MOVED]
+            form, none = form.take(near), np.zeros((near.size, self.reach.m))
+            above, below, _ = form.sides(half[near], none)
+            above, below, _ = form.sides(half[near], np.maximum(above, below))
             moved = self._rounded(self.reach.solved(q[near], targets[near], 3, (below - above) / 2), centre[near])
             good, _ = Form.at(self.reach, moved, targets[near]).proved(half[near])
             q[near[good]], found[near[good]], part[near[good]] = moved[good], True, 1.0

@@ -124,10 +124,10 @@ class Following:
     def solved(self, q: Array, cells: Cells) -> Array:
         """Newton from q (N, n) to the middles of cells, written in units of the file."""
         q, (goal, _) = self.placed(q, cells), self.healthy(cells.start + cells.end, cells.end)
-        target = self._moved(goal)
+        target = self.moved(goal)
         for _ in range(_NEWTON):
-            at = self._moved(q)
-            error, slope = self._missed(at, target)
+            at = self.moved(q)
+            error, slope = self.missed(at, target)
             if np.abs(error).max(initial=0.0) < _MET:
                 break
             q[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
@@ -139,8 +139,8 @@ class Following:
         m, n, tube = self.m, self.n, len(self.tube)
         goal, along = self.healthy(cells.start + cells.end, cells.end)
         rate = self.healthy(cells.begin + cells.stop, cells.stop)[1]
-        at, target = self._moved(q), self._moved(goal)
-        error, ours = self._missed(at, target)
+        at, target = self.moved(q), self.moved(goal)
+        error, ours = self.missed(at, target)
         slopes = np.concatenate([ours, self._theirs(at, target)], axis=2)
         turned, own = cells.width > 0, self._section(slopes, rate, along, cells.width > 0)
         d = np.zeros((len(q), 2 * n, 2 + tube + m))
@@ -240,8 +240,8 @@ class Following:
         for k in range(_NEWTON):
             goal, along = self.healthy(np.rint(2 * SEGMENT * z[:, -1]), end)
             z[:, self.still[1:]] = goal[:, self.still[1:]]
-            at, target = self._moved(z[:, :-1]), self._moved(goal)
-            error, own = self._missed(at, target)
+            at, target = self.moved(z[:, :-1]), self.moved(goal)
+            error, own = self.missed(at, target)
             slopes = np.concatenate([own, self._theirs(at, target)], axis=2)
             ahead = np.einsum("nmk,nk->nm", slopes[:, :, self.n :], np.broadcast_to(along, goal.shape))
             ahead += np.einsum("nmk,nk->nm", own[:, :, self.still[1:]], np.broadcast_to(along, goal.shape)[:, self.still[1:]])
@@ -261,10 +261,10 @@ class Following:
         while (some := np.flatnonzero(good & (at < end))).size:
             to = np.minimum(at[some] + step[some], end)
             goal, now = self.healthy(2 * to, to)[0], q[some]
-            target = self._moved(goal)
+            target = self.moved(goal)
             now[:, self.still[1:]] = goal[:, self.still[1:]]
             for _ in range(_NEWTON):
-                error, slope = self._missed(self._moved(now), target)
+                error, slope = self.missed(self.moved(now), target)
                 if np.abs(error).max(initial=0.0) < _NEAR:
                     break
                 now[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
@@ -277,7 +277,7 @@ class Following:
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
-    def _moved(self, q: Array) -> tuple[Array, Array, Array, Array]:
+    def moved(self, q: Array) -> tuple[Array, Array, Array, Array]:
         """Place and rotation of the tool, axes (N, n, 3), and how the place follows the joints (N, n, 3)."""
         place, turn = np.zeros((len(q), 3)), np.tile(np.eye(3), (len(q), 1, 1))
         axes, points = np.empty((2, len(q), self.n, 3))
@@ -290,7 +290,7 @@ class Following:
         place = place + turn @ self.chain.origins[self.n]
         return place, turn @ self.chain.rotations[self.n], axes, np.cross(axes, place[:, None] - points)
 
-    def _missed(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
+    def missed(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
         """Error (N, m) and its slopes by the arm's joints (N, m, n)."""
         error, slope = at[0] - target[0], at[3].transpose(0, 2, 1)
         if self.m > 3:

@@ -20,6 +20,7 @@ from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import SEGMENT, Following
 from holdfast.certificates.tool_paths.march import March, Slab
+from holdfast.certificates.tool_paths.rings import Never, rings_of
 from holdfast.certificates.tree import SearchState
 from holdfast.engine.memory import Parts
 
@@ -32,6 +33,7 @@ class Found:
 
     Attributes:
         slabs: Intervals of lock instants that are proved, in order, each with its cells.
+        never: Those that are refuted, in order.
         left: Those that are left to other jobs.
         closed: Instants of slabs that are done with.
         nodes: Cells that were looked at.
@@ -41,6 +43,7 @@ class Found:
     """
 
     slabs: Sequence[Slab]
+    never: Sequence[Never]
     left: Sequence[Slab]
     closed: int
     nodes: int
@@ -51,8 +54,12 @@ class Found:
     @property
     def state(self) -> SearchState:
         """Of the lock."""
-        done = sum(slab.stop - slab.begin for slab in self.slabs)
-        shares = {"proved": done / self.whole, "undecided": (self.closed - done) / self.whole}
+        done, gone = (sum(one.stop - one.begin for one in ours) for ours in (self.slabs, self.never))
+        shares = {
+            "proved": done / self.whole,
+            "refuted": gone / self.whole,
+            "undecided": (self.closed - done - gone) / self.whole,
+        }
         return SearchState(**shares, open=1 - self.closed / self.whole, nodes=self.nodes)
 
     def stored(self) -> Parts:
@@ -63,6 +70,9 @@ class Found:
             "cells": np.array(cells, dtype=np.int64),
             "centres": np.array([row for slab in self.slabs for row in slab.centres], dtype=np.int64),
             "left": np.array(left, dtype=np.int64),
+            "never": np.array(
+                [x for one in self.never for x in (one.begin, one.stop, one.at, len(one.tree), *one.tree)], dtype=np.int64
+            ),
             "counts": np.array([self.closed, self.nodes, self.whole], dtype=np.int64),
         }
         return {**made, "seconds": np.array([self.seconds])}
@@ -117,7 +127,7 @@ class Job:
 
     def nothing(self) -> Found:
         """All undecided."""
-        return Found((), (), 0, 0, False, 0.0, self.instants)
+        return Found((), (), (), 0, 0, False, 0.0, self.instants)
 
     def read(self, stored: Parts) -> Found:
         """What :meth:`Found.stored` kept."""
@@ -126,9 +136,14 @@ class Job:
             begin, stop, halvings, count = numbers[:4]
             ends, numbers = numbers[4 : 4 + count], numbers[4 + count :]
             slabs.append(Slab(begin, stop, halvings, ends, [next(rows) for _ in ends]))
+        given, never = stored["never"].tolist(), list[Never]()
+        while given:
+            (begin, stop, at, size), given = given[:4], given[4:]
+            never.append(Never(begin, stop, at, bytes(given[:size])))
+            given = given[size:]
         left = [Slab(*numbers) for numbers in stored["left"].reshape(-1, 3).tolist()]
         closed, nodes, whole = stored["counts"].tolist()
-        return Found(slabs, left, closed, nodes, True, float(stored["seconds"][0]), whole)
+        return Found(slabs, never, left, closed, nodes, True, float(stored["seconds"][0]), whole)
 
     def parted(self, found: Found) -> list[Job]:
         """The jobs of slabs that are left."""
@@ -142,8 +157,9 @@ class Job:
         """With what is found of slabs that were left."""
         every = [found, *parts]
         slabs = sorted((slab for one in every for slab in one.slabs), key=lambda slab: slab.begin)
+        never = sorted((one for part in every for one in part.never), key=lambda one: one.begin)
         return Found(
-            slabs, (), sum(one.closed for one in every), sum(one.nodes for one in every),
+            slabs, never, (), sum(one.closed for one in every), sum(one.nodes for one in every),
             all(one.finished for one in every), sum(one.seconds for one in every), found.whole,
         )  # fmt: skip
 
@@ -162,7 +178,7 @@ class Running:
         tube = np.repeat(claim.tube, [min(3, rows), max(0, rows - 3)]) if claim.tube.any() else np.empty(0)
         limits = np.column_stack([claim.arm.lower, claim.arm.upper])
         following = Following(Chain.of(claim.arm), claim.knots, rows, [job.joint, *job.followers], tube, limits)
-        self._march = March(following, job.slabs, job.halvings, job.most)
+        self._march = March(following, job.slabs, job.halvings, job.most, rings_of(claim, job.joint))
 
     def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
         """On with it until it is time (``monotonic``), or to stop."""
@@ -180,4 +196,5 @@ class Running:
         march = self._march
         slabs = sorted(march.proved, key=lambda slab: slab.begin)
         left = march.left if self.finished else []
-        return Found(slabs, left, march.closed, march.nodes, self.finished, self._seconds, self.job.instants)
+        never = sorted(march.never, key=lambda one: one.begin)
+        return Found(slabs, never, left, march.closed, march.nodes, self.finished, self._seconds, self.job.instants)

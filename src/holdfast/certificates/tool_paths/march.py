@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.tool_paths.forms import SEGMENT, UNIT, Cells, Following, Forms
+from holdfast.certificates.tool_paths.rings import Never, Rings
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -48,6 +49,12 @@ class Slab:
     def anew(self) -> Slab:
         """Without what is found, the first cell as long as it."""
         return Slab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
+
+    @property
+    def halves(self) -> list[Slab]:
+        """Two."""
+        middle = (self.begin + self.stop) // 2
+        return [Slab(a, b, self.halvings + 1).anew for a, b in ((self.begin, middle), (middle, self.stop))]
 
     @property
     def at(self) -> int:
@@ -138,7 +145,8 @@ class LockedPath:
         joint: Index of it.
         followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
         slabs: Intervals of lock instants that are proved, in order, each with its cells.
-        proved: Exact part of the lock instants.
+        never: Those that are refuted, in order.
+        proved, refuted: Exact parts of the lock instants.
         nodes: Cells that were looked at.
         finished: False if the search was stopped.
         seconds: Measured.
@@ -147,7 +155,9 @@ class LockedPath:
     joint: int
     followers: tuple[int, ...]
     slabs: tuple[Slab, ...]
+    never: tuple[Never, ...]
     proved: Fraction
+    refuted: Fraction
     nodes: int
     finished: bool
     seconds: float
@@ -158,9 +168,19 @@ class LockedPath:
         return [(slab.begin, slab.stop) for slab in self.slabs]
 
     @property
+    def refuted_spans(self) -> list[tuple[int, int]]:
+        """Refuted ones."""
+        return [(one.begin, one.stop) for one in self.never]
+
+    @property
+    def undecided(self) -> Fraction:
+        """The rest."""
+        return 1 - self.proved - self.refuted
+
+    @property
     def leaves(self) -> int:
-        """Cells of proved slabs."""
-        return sum(len(slab.ends) for slab in self.slabs)
+        """Cells of proved slabs, and boxes of joints that refute others."""
+        return sum(len(slab.ends) for slab in self.slabs) + sum(1 + len(one.tree) for one in self.never) // 2
 
 
 class March:
@@ -171,38 +191,44 @@ class March:
         slabs: Of lock instants.
         halvings: Of slabs, at most.
         most: Cells that are looked at before no more slabs begin.
+        rings: What refutes slabs that lead nowhere; None: nothing does.
 
     Attributes:
         proved: Slabs, in no order.
-        nodes: Cells that were looked at.
+        never: Refuted ones, in no order.
+        nodes: Cells and boxes that were looked at.
         closed: Instants of slabs that are done with.
     """
 
-    def __init__(self, following: Following, slabs: Sequence[Slab], halvings: int, most: float = np.inf) -> None:
-        self.following, self._halvings, self._most = following, halvings, most
+    def __init__(
+        self, following: Following, slabs: Sequence[Slab], halvings: int, most: float = np.inf, rings: Rings | None = None
+    ) -> None:
+        self.following, self._halvings, self._most, self._rings = following, halvings, most, rings
         self._end = (len(following.knots) - 1) * SEGMENT
         self.proved: list[Slab] = []
+        self.never: list[Never] = []
         self.nodes, self.closed = 0, 0
         self._waiting = deque(slab.anew for slab in slabs)
         self._moving: list[Slab] = []
         self._failed: list[Slab] = []
+        self._hopeless: list[Slab] = []
         self._before: Forms | None = None
 
     def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> bool:
         """On with it until it is time (``monotonic``), or to stop; whether only slabs that have not begun are left."""
-        while (self._moving or self._waiting or self._failed) and monotonic() < until and not stop():
-            if not (self._moving or self._waiting):
-                self._halved()
+        while monotonic() < until and not stop():
             if self.nodes < self._most:
                 self._filled()
-            elif not self._moving:
-                break
             if self._moving:
                 self._moved()
+            elif self._failed:
+                self._halved()
+            elif self._hopeless:
+                self._refuted(self._hopeless.pop())
+            else:
+                break
             tell()
-        if self._failed and not self._moving and self.nodes >= self._most:
-            self._halved()
-        return not (self._moving or self._failed or (self._waiting and self.nodes < self._most))
+        return not (self._moving or self._failed or self._hopeless or (self._waiting and self.nodes < self._most))
 
     @property
     def left(self) -> list[Slab]:
@@ -289,11 +315,22 @@ class March:
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
         ends = np.asarray(self.following.finishes(locks.ravel())).reshape(-1, 3)
-        for slab, (begin, middle, stop), good in zip(slabs, locks.tolist(), ends, strict=True):
+        for slab, good in zip(slabs, ends, strict=True):
             if good.all() and self._turned(slab):
                 continue
-            if not good.any() or slab.halvings == self._halvings:
-                self.closed += stop - begin
-                continue
-            for a, b in ((begin, middle), (middle, stop)):
-                self._waiting.append(Slab(a, b, slab.halvings + 1, step=b - a))
+            if not good.any():
+                self._hopeless.append(slab)
+            elif slab.halvings == self._halvings:
+                self.closed += slab.stop - slab.begin
+            else:
+                self._waiting += slab.halves
+
+    def _refuted(self, slab: Slab) -> None:
+        """From no instant of a slab that was looked at a motion was found: it is refuted, or its halves may be."""
+        never, parts, nodes = (None, False, 0) if self._rings is None else self._rings.tried(slab.begin, slab.stop)
+        self.nodes += nodes
+        if never is None and parts and slab.halvings < self._halvings:
+            self._hopeless += slab.halves
+            return
+        self.never += [] if never is None else [never]
+        self.closed += slab.stop - slab.begin

@@ -38,14 +38,29 @@ class PathProof(InParts):
     document: dict[str, Any]
 
     @property
+    def ok(self) -> bool:
+        """True if all is proved."""
+        return self.proved == 1
+
+    @property
+    def refuted(self) -> Fraction:
+        """Exact part of the lock instants at which nothing finishes the path, with the lock of which most is."""
+        return max(part.refuted for part in self.parts)
+
+    @property
+    def undecided(self) -> Fraction:
+        """Exact part of them that is neither proved nor refuted, with the lock of which most is."""
+        return max(part.undecided for part in self.parts)
+
+    @property
     def tolerant(self) -> Fraction:
         """Exact part of the lock instants that is proved whichever joint locks."""
-        left = [gap for part in self.parts for gap in self.gaps(part)]
+        left = [gap for part in self.parts for gap in verifier.paths.gaps(part.spans, self.document)]
         return 1 - verifier.paths.share(left, self.document)
 
     def gaps(self, part: LockedPath) -> list[Span]:
         """Undecided intervals of lock instants."""
-        return verifier.paths.gaps(part.spans, self.document)
+        return verifier.paths.gaps(part.spans + part.refuted_spans, self.document)
 
     def write(self, file: str | Path) -> Path:
         """Write the certificate.
@@ -59,13 +74,15 @@ class PathProof(InParts):
         """A few sentences for people."""
         whichever = f"; whichever joint locks, {verifier.per_cent(self.tolerant)}" if len(self.parts) > 1 else ""
         worst = min(self.parts, key=lambda part: part.proved)
-        name = self.claim.arm.joint_names[worst.joint]
+        shares = f"proved {verifier.per_cent(worst.proved)}, "
+        shares += f"refuted {verifier.per_cent(worst.refuted)}, " * bool(worst.refuted)
+        shares += f"undecided {verifier.per_cent(worst.undecided, up=True)}"
+        least = "" if self.ok else f" with a lock of {self.claim.arm.joint_names[worst.joint]}, of which least is proved"
         return [
             self.document["claim"],
-            f"Found by the prover, not yet verified: of the lock instants proved {verifier.per_cent(self.proved)}, undecided "
-            f"{verifier.per_cent(self.undecided, up=True)}{'' if self.ok else f', at most, with a lock of {name}'}"
-            f"{whichever}{early(self.finished)}.",
-            f"{self.leaves:,} cells are proved and glued, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",
+            f"Found by the prover, not yet verified: of the lock instants {shares}{least}{whichever}{early(self.finished)}.",
+            f"{self.leaves:,} cells, each glued to the next or with no configuration in it, of {self.nodes:,} that were looked "
+            f"at; {self.seconds:.1f} s.",
         ]
 
 
@@ -76,7 +93,9 @@ def proved(claim: PathClaim, halvings: int, effort: Effort) -> PathProof:
     parts = tuple(
         LockedPath(
             joint=job.joint, followers=job.followers, slabs=tuple(found.slabs),
-            proved=Fraction(sum(slab.stop - slab.begin for slab in found.slabs), whole), nodes=found.nodes,
+            never=tuple(found.never),
+            proved=Fraction(sum(slab.stop - slab.begin for slab in found.slabs), whole),
+            refuted=Fraction(sum(one.stop - one.begin for one in found.never), whole), nodes=found.nodes,
             finished=found.finished, seconds=found.seconds,
         )
         for job, found in zip(jobs, effort.found(jobs), strict=True)

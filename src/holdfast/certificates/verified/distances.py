@@ -3,11 +3,15 @@
 In each leaf some combination of the task's rows is not 0; or a point of some link is farther from the target than the tool can
 be from this point, or nearer. How far that is, is a lemma, with a tree of its own over the joints behind the link. All of it is
 bounded by exact derivatives at the centre, and a bound for the third.
+
+Where the tool is given, base, joints, tool and base again are a ring. Two points of links are as far from each other by the
+joints between them as by the others, on the way round by the tool and the base; a leaf excludes where that cannot be.
 """
 
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -15,36 +19,16 @@ from numpy.typing import NDArray
 
 from .balls import UP, Balls, crossed, flint, length, stacked, times
 from .boxes import Boxes, bent
-from .chain import Array, Moved
+from .chain import Array, Moved, turned
 from .forms import UNIT, need, real
+from .paths import SEGMENT, Never
 from .rows import Rows, point_derivatives
 from .targets import Leaves
 from .tree import Cell
 
 
-class Apart(Boxes):
-    """The leaves of a refutation: the tool is not where the target is."""
-
-    def __init__(self, document: dict[str, Any]) -> None:
-        self._given, self.rows = document | {"tree": ""}, Rows(document)
-        limits, target, lemmas = list(document["limits"]), document["target"], document["lemmas"]
-        if document["locked"] >= 0:
-            limits[document["locked"]] = document["angle"]
-        full, ends = math.nextafter(math.pi, 4), [[real(x) for x in pair] for pair in limits]
-        for k, (pair, joint) in enumerate(zip(ends, document["arm"]["joints"], strict=True)):
-            turns = joint["type"] == "revolute"
-            need(turns or math.isfinite(pair[1] - pair[0]), f"{joint['name']} slides without an end")
-            ends[k] = [-full, full] if turns and not pair[1] - pair[0] < 2 * math.pi else pair
-        self.axes = len(target["axes"])
-        flat = document["task"].startswith("planar")
-        super().__init__(document["arm"], [*ends, *([real(x) for x in pair] for pair in target["box"])], flat)
-        need(not (lemmas and self.slides.any()), "lemmas are of joints that turn")
-        self.points = [np.array([real(x) for x in lemma["point"]]) * [1, 1, not flat] for lemma in lemmas]
-        self.links = [lemma["link"] for lemma in lemmas]
-        self.least, self.most = ([real(lemma[key]) for lemma in lemmas] for key in ("least", "most"))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Apart, (self._given,)
+class Distances(Boxes):
+    """How far points are from each other, over boxes of joints and targets."""
 
     def nearest(self, form: tuple[Balls, Balls, Balls], third: tuple[Array, Array], half: Array, wide: Array) -> Array:
         """Below the length of the rows: along a direction e, of length 1 at most, whichever it is; some are tried.
@@ -93,6 +77,42 @@ class Apart(Boxes):
         near = self.nearest((away, *point_derivatives(moved.spin, moved.columns)), (third, np.zeros(len(third))), half, wide)
         return near, self.farthest(away, moved, lengths, half, wide)
 
+    def apart(self, joints: list[Array], first: int, start: Array, end: Array, count: int) -> tuple[Array, Array]:
+        """Below and above the distance of a point of link ``first`` from one behind some joints, (N,)."""
+        point, moved = Balls(np.broadcast_to(start, (count, 3))), self.moved(joints, first, end, count)
+        half = np.stack([joint[:, 2] for joint in joints], 1) if joints else np.zeros((count, 0))
+        # Where the first axes pass by the point at a distance, turning about these changes the other's by so much at most.
+        aside, still = np.zeros(count), np.ones(count, dtype=bool)
+        by = times("nkij,nkj->nki", crossed(moved.axes), point[:, None] + -moved.places).size
+        for k in range(len(joints)):
+            cost = length(by[:, k]) * np.minimum(half[:, k], 2) * UP
+            still &= cost < 1e-6
+            half[:, k], aside = np.where(still, 0.0, half[:, k]), (aside + np.where(still, cost, 0.0)) * UP
+        lengths = self.lengths(first, first + len(joints), end)
+        near, far = self.span(moved, moved.tip + -point, lengths, half, np.zeros((count, 3)))
+        return np.nextafter(near - aside, -np.inf), np.nextafter(far + aside, np.inf)
+
+
+class Apart(Distances):
+    """The leaves of a refutation: the tool is not where the target is."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given, self.rows = document | {"tree": ""}, Rows(document)
+        limits, target, lemmas = list(document["limits"]), document["target"], document["lemmas"]
+        if document["locked"] >= 0:
+            limits[document["locked"]] = document["angle"]
+        ends = within_a_turn([[real(x) for x in pair] for pair in limits], document["arm"]["joints"])
+        self.axes = len(target["axes"])
+        flat = document["task"].startswith("planar")
+        super().__init__(document["arm"], [*ends, *([real(x) for x in pair] for pair in target["box"])], flat)
+        need(not (lemmas and self.slides.any()), "lemmas are of joints that turn")
+        self.points = [np.array([real(x) for x in lemma["point"]]) * [1, 1, not flat] for lemma in lemmas]
+        self.links = [lemma["link"] for lemma in lemmas]
+        self.least, self.most = ([real(lemma[key]) for lemma in lemmas] for key in ("least", "most"))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Apart, (self._given,)
+
     def excluded(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
         """Of leaves of the tree: by a lemma, or by none (-1), in which case some combination of the rows must not be 0."""
         last, end = (self.links[which], self.points[which]) if which >= 0 else (self.n, None)
@@ -114,19 +134,9 @@ class Apart(Boxes):
 
     def keeps(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
         """Of leaves of a lemma: whether the tool keeps its distance from the point."""
-        first, point = self.links[which], Balls(np.broadcast_to(self.points[which], (len(parts), 3)))
+        first = self.links[which]
         joints = [self.middles(k, [(*[(0, 0)] * first, *cell) for cell in parts]) for k in range(first, self.n)]
-        moved, half = self.moved(joints, first), np.stack([joint[:, 2] for joint in joints], 1)
-        # Where the first axes pass by the point at a distance, turning about these changes the tool's by so much at most.
-        aside, still = np.zeros(len(parts)), np.ones(len(parts), dtype=bool)
-        by = times("nkij,nkj->nki", crossed(moved.axes), point[:, None] + -moved.places).size
-        for k in range(len(joints)):
-            cost = length(by[:, k]) * np.minimum(half[:, k], 2) * UP
-            still &= cost < 1e-6
-            half[:, k], aside = np.where(still, 0.0, half[:, k]), (aside + np.where(still, cost, 0.0)) * UP
-        lengths, still = self.lengths(first, self.n), np.zeros((len(parts), 3))
-        near, far = self.span(moved, moved.tip + -point, lengths, half, still)
-        near, far = np.nextafter(near - aside, -np.inf), np.nextafter(far + aside, np.inf)
+        near, far = self.apart(joints, first, self.points[which], self.origins[-1], len(parts))
         return np.asarray(((near >= self.least[which]) | (self.least[which] <= 0)) & (far <= self.most[which]))
 
     def holds(self, witness: list[str]) -> bool:
@@ -160,3 +170,83 @@ class Apart(Boxes):
                 good = self.excluded(kind[1], parts) if kind[0] < 0 else self.keeps(kind[0], parts)
                 bad += [(cell, kind) for cell, fine in zip(parts, good, strict=True) if not fine]
         return len(chunk), bad
+
+
+class Ring(Distances):
+    """That with joints in ranges of theirs no configuration has the tool where it is with all of them at other values.
+
+    ``turns``: whether its rotation is given as well; else the later one of two points must be the tool point.
+    """
+
+    def __init__(self, arm: dict[str, Any], ranges: list[Any], *, tool: list[Fraction], turns: bool, flat: bool) -> None:
+        super().__init__(arm, within_a_turn(ranges, arm["joints"]), flat)
+        self.joints, self.turns_too, self.tip, self._kept = self.n, turns, self.origins[-1], np.array([1, 1, not flat])
+        at = self.moved([np.array([turned(x)]) for x in tool])
+        # From the tool back to the base: where that is seen from the last link, and how turned.
+        turn = times("ij,jk->ik", self.turns[-1], at.turn[0].transposed(1, 0))
+        self._base = Balls(self.origins[-1]) + -times("ij,j->i", turn, at.tip[0]), turn
+        begin = self._seen(self.origins[0])
+        self.origins = [*self.origins[:-1], begin.at, *self.origins[1:]]
+        self.turns = [*self.turns[:-1], times("ij,jk->ik", turn, self.turns[0]), *self.turns[1:]]
+        self.slides, self.n, self._off = np.tile(self.slides, 2), 2 * self.n, begin.off
+
+    def _seen(self, place: Array) -> Balls:
+        """A place of the base, from the last link."""
+        return self._base[0] + times("ij,j->i", self._base[1], Balls(place))
+
+    def excludes(self, pair: list[tuple[int, Array]], cells: list[Cell]) -> NDArray[np.bool_]:
+        """Of leaves: whether two points, each (link, (3,) m in its frame), are never so far apart on both ways round."""
+        (first, a), (last, b) = ((link, place * self._kept) for link, place in pair)
+        known = self.turns_too or (last == self.joints and (b == self.tip).all())
+        need(first <= last and known, "a point is behind the one it is paired with, or its place is not known")
+        joints, count = [self.middles(k, cells) for k in range(self.joints)], len(cells)
+        near, far = self.apart(joints[first:last], first, a, b, count)
+        end = Balls(a) if first else self._seen(a)
+        low, high = self.apart(joints[last:] + joints[:first], last, b, end.at, count)
+        off = length(self._off + end.off, 0) * 2
+        return np.asarray((near > (high + off) * UP) | (far < low - off * UP))
+
+
+class Unfinished:
+    """Lock instants of a path after which no configuration has the tool where it must be, at some later place."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self._given, self._knots = document, [[Fraction(real(x)) for x in knot] for knot in document["knots"]]
+        self._points = [(point["link"], np.array([real(x) for x in point["place"]])) for point in document["points"]]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Unfinished, (self._given,)
+
+    def _healthy(self, instant: int) -> list[Fraction]:
+        k = max(instant - 1, 0) // SEGMENT
+        part = Fraction(instant, SEGMENT) - k
+        return [a + (b - a) * part for a, b in zip(*self._knots[k : k + 2], strict=True)]
+
+    def rejected(self, chunk: list[Never]) -> tuple[int, list[tuple[Never, int]]]:
+        """How many leaves were checked, and what is not refuted, each with how many of its leaves are bad."""
+        bad, task = list[tuple[Never, int]](), self._given["task"]
+        with flint.ctx.workprec(64), np.errstate(all="ignore"):
+            for one in chunk:
+                which, ends, at, leaves = one
+                lock, ranges = self._given["locks"][which], [[real(x) for x in pair] for pair in self._given["limits"]]
+                ranges[lock["joint"]] = sorted(self._healthy(instant)[lock["joint"]] for instant in ends)
+                ring = Ring(
+                    self._given["arm"], ranges, tool=self._healthy(at), turns="pose" in task, flat=task.startswith("planar")
+                )
+                good = 0
+                for token in sorted({token for token, _ in leaves}):
+                    pair = [self._points[k] for k in self._given["pairs"][token]]
+                    good += int(ring.excludes(pair, [cell for other, cell in leaves if other == token]).sum())
+                bad += [(one, len(leaves) - good)] * (good < len(leaves))
+        return sum(len(leaves) for *_, leaves in chunk), bad
+
+
+def within_a_turn(ranges: list[Any], joints: list[dict[str, Any]]) -> list[Any]:
+    """Ranges (low, high) of joints, of those that turn a full turn at most."""
+    full = math.nextafter(math.pi, 4)
+    for (low, high), joint in zip(ranges, joints, strict=True):
+        need(joint["type"] == "revolute" or math.isfinite(high - low), f"{joint['name']} slides without an end")
+    turns = [
+        joint["type"] == "revolute" and not high - low < 2 * math.pi for (low, high), joint in zip(ranges, joints, strict=True)
+    ]
+    return [[-full, full] if turn else pair for turn, pair in zip(turns, ranges, strict=True)]

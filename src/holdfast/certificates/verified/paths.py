@@ -13,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .forms import COMMON, LIMITS, NUMBER, TEXT, fit, need, real, spans, unpacked, within
+from .tree import MOST_LEAVES, SPLIT, Cell, cells
 
 Ints = NDArray[np.int64]
 Slab = tuple[int, tuple[int, int], Ints, Ints]  # the lock; its ends; of its cells start, end and half width; their centres
+Never = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
 
 SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
@@ -29,7 +31,7 @@ def check(document: dict[str, Any]) -> None:
     knots, n = document.get("knots"), len(joints)
     need(task in ROWS and n <= MOST_TURNING, f"paths are of {', '.join(ROWS)}, and of {MOST_TURNING} joints at most")
     need(all(joint["type"] == "revolute" for joint in joints), "paths are of joints that turn")
-    count = len(knots) - 1 if isinstance(knots, list) else 0
+    count, points = len(knots) - 1 if isinstance(knots, list) else 0, document.get("points")
     need(1 <= count <= MOST_SEGMENTS, f"there must be from 1 to {MOST_SEGMENTS} segments")
     lock = {
         "joint": range(n),
@@ -37,12 +39,16 @@ def check(document: dict[str, Any]) -> None:
         "cells": TEXT,
         "centres": TEXT,
         "proved": SHARE,
+        "refuted": SHARE,
+        "refutations": [dict.fromkeys(("begin", "stop", "at"), range(count * SEGMENT + 1)) | {"tree": TEXT}, ...],
     }
     form: dict[str, Any] = {
         "knots": [[NUMBER, n], ...],
         "tube": [NUMBER, 2],
         "limits": [LIMITS, n],
         "during": [range(count * SEGMENT + 1), 2],
+        "pairs": [[range(len(points) if isinstance(points, list) else 0), 2], ...],
+        "points": [{"link": range(n + 1), "place": [NUMBER, 3]}, ...],
     }
     volumes = {"volumes": dict.fromkeys(COMMON["volumes"], SHARE)}
     form |= {"unit": re.escape(UNIT.hex()), "locks": [lock, ...]}
@@ -52,6 +58,7 @@ def check(document: dict[str, Any]) -> None:
         within([[x, x] for x in knot], document["limits"], "a knot")
         need(all(abs(real(x)) < 7 for x in knot), "a knot turns by more than 7 rad")
     need(all(0 <= real(x) <= 0.1 for x in document["tube"]), "a tube is from 0 to 0.1 m and rad")
+    need(len(document["pairs"]) <= SPLIT, f"there are more than {SPLIT} pairs of points")
     need(document["during"][0] < document["during"][1], "during must not be empty")
     locked = [lock["joint"] for lock in document["locks"]]
     need(locked and locked == sorted(set(locked)), "locks must be in order, each once")
@@ -100,6 +107,12 @@ def text(part: Fraction) -> str:
     return f"{part.numerator}/{part.denominator}"
 
 
+def volumes(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
+    """What is proved at least, refuted and undecided at most, of the lock of each joint: (proved, refuted)."""
+    least, most = min(a for a, _ in parts), max(b for _, b in parts)
+    return {"proved": text(least), "refuted": text(most), "undecided": text(max(1 - a - b for a, b in parts))}
+
+
 def slabs(document: dict[str, Any]) -> Iterator[Slab]:
     """Of all locks, in order; refused unless each is whole, within the claim and behind the one before."""
     first, last = document["during"]
@@ -127,6 +140,20 @@ def slabs(document: dict[str, Any]) -> Iterator[Slab]:
             yield which, (begin, stop), cells, some
             at, used, after = at + 3 + count, used + count, stop
         need(used == len(rows), "centres are left over")
+
+
+def refutations(document: dict[str, Any]) -> Iterator[Never]:
+    """Of all locks, in order, intervals of lock instants that are refuted at a later place of the path."""
+    first, last = document["during"]
+    for which, lock in enumerate(document["locks"]):
+        after = first
+        for one in lock["refutations"]:
+            begin, stop, at = (one[key] for key in ("begin", "stop", "at"))
+            good = after <= begin < stop <= min(last, at) and (stop - 1) // SEGMENT == begin // SEGMENT
+            need(good, "a refuted interval of lock instants is out of place")
+            tree = unpacked(one["tree"], 2 * MOST_LEAVES, "tree of a refutation")
+            yield which, (begin, stop), at, list(cells(tree, len(document["arm"]["joints"]), len(document["pairs"]) - 1))
+            after = stop
 
 
 def _cells(begin: int, given: Ints, placed: Ints) -> Ints:

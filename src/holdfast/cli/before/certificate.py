@@ -55,6 +55,9 @@ def show(file: FileArgument) -> None:
         document = verifier.load(file)
     except verifier.Refused as error:
         raise InputError(str(error)) from error
-    volumes = document["volumes"]
+    volumes, arm = document["volumes"], document["source"]["name"]
     typer.echo(document["claim"])
+    typer.echo(
+        f"A {document['kind']} of {arm}, whose file has {len(document['arm']['joints'])} joints; digest {document['digest']}."
+    )
     typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")

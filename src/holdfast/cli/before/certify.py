@@ -21,6 +21,7 @@ from holdfast.cli.certify_options import (
     LimitOption,
     LockOption,
     PointingOption,
+    ReportOption,
     RotationOption,
     RowsOption,
     SizeOption,
@@ -78,6 +79,7 @@ def reach(
     seed: SeedOption = 0,
     out: CertificateOption = Path("reach.certificate"),
     plot: PlotOption = None,
+    report: ReportOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
@@ -97,7 +99,7 @@ def reach(
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, plot, **how)
+    proved(claim, out, check, json_, plot, report, **how)
 
 
 @command.command("out-of-reach")
@@ -121,6 +123,8 @@ def out_of_reach(
     hold: HoldOption = None,
     seed: SeedOption = 0,
     out: CertificateOption = Path("out-of-reach.certificate"),
+    plot: PlotOption = None,
+    report: ReportOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that no point of a box is reached, healthy or wherever one joint locks in an interval.
@@ -140,7 +144,7 @@ def out_of_reach(
         limits=_intervals(model, "--limit", limit or [], degrees),
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, None, **how)
+    proved(claim, out, check, json_, plot, report, **how)
 
 
 @command.command()
@@ -178,6 +182,7 @@ def tolerant(
         "certificates"
     ),
     plot: PlotOption = None,
+    report: ReportOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
@@ -198,7 +203,7 @@ def tolerant(
         failures=read_failures(model, failures),
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, plot, **how)
+    proved(claim, out, check, json_, plot, report, **how)
 
 
 @command.command()
@@ -221,6 +226,8 @@ def ceiling(
     hold: HoldOption = None,
     seed: SeedOption = 0,
     out: CertificateOption = Path("ceiling.certificate"),
+    plot: PlotOption = None,
+    report: ReportOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that relative manipulability is nowhere in a box of configurations above a threshold.
@@ -240,7 +247,7 @@ def ceiling(
         task=task,
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, None, **how)
+    proved(claim, out, check, json_, plot, report, **how)
 
 
 @command.command()
@@ -263,6 +270,8 @@ def floor(
     hold: HoldOption = None,
     seed: SeedOption = 0,
     out: CertificateOption = Path("floor.certificate"),
+    plot: PlotOption = None,
+    report: ReportOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that relative manipulability is nowhere in a box of configurations below a threshold, and that none is singular.
@@ -282,7 +291,7 @@ def floor(
         task=task,
     )
     how = {"halvings": halvings, "time_limit": time_limit, "seed": seed, "workers": workers, "store": store}
-    proved(claim, out, check, json_, None, **how)
+    proved(claim, out, check, json_, plot, report, **how)
 
 
 command.command()(path)

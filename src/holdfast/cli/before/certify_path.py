@@ -54,8 +54,8 @@ def path(
     """Prove that whatever joint locks, and whenever, one continuous motion finishes the path of the tool.
 
     The motion is a table of the healthy arm's configurations, such as follow writes; between them joints move along straight
-    lines. The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes
-    what is proved so far; with --store the same command resumes.
+    lines. The exit code is 0 if all is proved, 3 if something is undecided, 4 if something is refuted, 1 if the check rejects
+    something. Ctrl-C writes what is found so far; with --store the same command resumes.
 
     Example: holdfast certify path planar-3r motion.csv --task planar --tube 0.0005
     """

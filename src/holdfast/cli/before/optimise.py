@@ -77,13 +77,18 @@ def command(
             show_default=False,
         ),
     ] = None,
+    anywhere: Annotated[
+        bool, typer.Option("--anywhere", help="Whatever the pose: the best configuration of all within the limits.")
+    ] = False,
     degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     starts: Annotated[
         int | None,
         typer.Option(
-            "--starts", help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more.", show_default=False
+            "--starts",
+            help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere.",
+            show_default=False,
         ),
     ] = None,
     clearance: apart.ClearanceOption = None,
@@ -104,7 +109,7 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """The best configuration of a pose before a joint fails: the end effector does not move.
+    """The best configuration of a pose before a joint fails: the end effector does not move. With --anywhere, of all poses.
 
     Example: holdfast optimise panda --at "0 -45 0 -135 0 90 45" --degrees --minimise torque:effort
     """
@@ -118,12 +123,15 @@ def command(
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *wish, chosen)
-    if [x is not None for x in (pose, poses, at)].count(True) != 1:
-        raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv and --at "joint values"')
+    if [pose is not None, poses is not None, at is not None, anywhere].count(True) != 1:
+        raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv, --at "joint values" and --anywhere')
     given = None if at is None else np.array([read_configuration(model, x, degrees, "--at") for x in at])
+    targets = None
+    if not anywhere:
+        targets = _targets(model, chosen, pose or [], poses) if given is None else model.forward_kinematics(given)
     found = optimise(
         model,
-        _targets(model, chosen, pose or [], poses) if given is None else model.forward_kinematics(given),
+        targets,
         objective,
         seed=seed,
         starts=starts,

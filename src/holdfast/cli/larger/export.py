@@ -31,6 +31,10 @@ def command(
             "--monitor", help="Bounds of calibrate: also a monitor of joint faults, NAME_monitor.", show_default=False
         ),
     ] = None,
+    controller: Annotated[
+        bool,
+        typer.Option("--controller", help="With --monitor: also a controller in C++17 that reacts to it, NAME_controller."),
+    ] = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -42,10 +46,15 @@ def command(
     """
     if language not in LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
+    if controller and monitor is None:
+        raise InputError("--controller needs --monitor BOUNDS, which 'holdfast calibrate' makes")
     chosen = law_of(law, arm, task, base, tip, hold)
     files = chosen.export_c(out, name)
     watching: list[Path] = []
     if monitor is not None:
-        bounds = hf.diagnosis.load(monitor)
-        watching += hf.diagnosis.export_c(chosen.arm, bounds, out, name=f"{files.source.stem}_monitor")
+        bounds, stem = hf.diagnosis.load(monitor), files.source.stem
+        if controller:
+            watching += hf.reaction.export_controller(chosen, bounds, out, name=f"{stem}_controller")
+        else:
+            watching += hf.diagnosis.export_c(chosen.arm, bounds, out, name=f"{stem}_monitor")
     printed(files, json_, watching, listed=monitor is not None)

@@ -16,18 +16,22 @@ from holdfast.arms import dh_file
 from holdfast.arms.urdf_writing import urdf_text
 from holdfast.ceilings.ceiling import Ceiling, look_up, table
 from holdfast.designs.book.measuring import jacobian_of, least_left, null_space_of
+from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
 from holdfast.errors import InputError
 from holdfast.files import yaml
 from holdfast.files.yaml import Number, Strict, sentence
 from holdfast.grammar import TASKS
 from holdfast.result import Result
 from holdfast.solvers.self_motions import self_motion
+from holdfast.words import percent
 
 Array = NDArray[np.float64]
 
 _ORTHONORMAL = 1e-12
 _SPACING, _STARTS = 0.01, 32  # rad; of the trace of a self-motion
+_GRID, _LENGTH = 2e-3, 1e-9  # relative, of an area by a grid; m, and fraction of all links
 _ONE = "one configuration"
+LINKS = 3.0  # m, of all links together: so that areas compare
 _FOLDER = Path(__file__).parent / "data"
 
 
@@ -36,7 +40,8 @@ class _Class(Strict):
     rows: int
     joints: int
     failures: int
-    quantity: Literal["relative-manipulability", "self-motion-size"]
+    quantity: Literal["relative-manipulability", "self-motion-size", "tolerant-workspace"]
+    least_link: Annotated[Number, Field(ge=0, lt=0.5)] = 0.0
     conditions: list[str]
 
 
@@ -66,6 +71,7 @@ class RecordFile(Strict):
     found: _Found
     arm: dh_file.ArmFile | None = None
     null_space: list[list[Number]] | None = None
+    limits: list[tuple[Number, Number] | None] | None = None
     at: Literal["home"] | list[Number] = "home"
     check: _Check
     beaten_by: str | None = None
@@ -88,12 +94,20 @@ class Record(Result):
 
     @property
     def proven(self) -> tuple[float, str]:
-        """What no arm can beat, and why: of the size of a self-motion, in whole turns, all joints."""
+        """What no arm can beat, and why: of the size of a self-motion, in whole turns, all joints; of a workspace, in m^2."""
         c = self.data.kind
         if c.quantity == "self-motion-size":
             return float(c.joints), "definition"
+        if c.quantity == "tolerant-workspace":
+            return (np.pi * LINKS**2 / 3, "W1") if c.joints == 3 else (np.pi * LINKS**2 * (1 - 2 * c.least_link) ** 2, "W2")
         bound = look_up(n=c.joints, m=c.rows, k=c.failures)
         return bound.bound, bound.bound_by
+
+    @property
+    def amount(self) -> str:
+        """The value with its unit, for tables."""
+        unit = {"self-motion-size": " turns", "tolerant-workspace": " m²"}.get(self.data.kind.quantity, "")
+        return f"{self.data.value:.8g}{unit}"
 
     @property
     def gap(self) -> float:
@@ -123,15 +137,22 @@ class Record(Result):
     def describe(self) -> list[str]:
         """Class, value and bound."""
         c, bound = self.data.kind, self.data.proven_bound
-        of = f"{c.failures} locked at once" if c.quantity == "relative-manipulability" else "whole turns in one self-motion"
-        what = f"{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {of}"
+        of = {
+            "relative-manipulability": f"{c.failures} locked at once",
+            "self-motion-size": "whole turns in one self-motion",
+            "tolerant-workspace": f"m^2 whichever locks, {LINKS:g} m of links, each at least {percent(c.least_link)} of it",
+        }
+        what = f"{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {of[c.quantity]}"
         beaten = f"; beaten by {self.data.beaten_by}" if self.data.beaten_by else ""
         return [f"{self.id}: {what}: {self.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten}"]
 
     def check(self) -> RecordCheck:
         """Measure everything again, with code that shares nothing with what found it."""
         c, claimed, claims = self.data.kind, self.data, list[tuple[str, bool]]()
-        value = self._turns() if c.quantity == "self-motion-size" else self._left(claims)
+        if c.quantity == "relative-manipulability":
+            value = self._left(claims)
+        else:
+            value = self._turns() if c.quantity == "self-motion-size" else self._area(claims)
         if value is not None:
             near_enough = abs(value - claimed.value) <= claimed.check.tolerance * value
             claims.append((f"value {claimed.value!r}, measured {value!r}", near_enough))
@@ -151,6 +172,29 @@ class Record(Result):
             return None
         found = self_motion(arm, arm.forward_kinematics(self.q), self.data.kind.task, spacing=_SPACING, starts=_STARTS)
         return found.size / (2 * np.pi)
+
+    def _area(self, claims: list[tuple[str, bool]]) -> float | None:
+        """Of the failure-tolerant workspace, m^2, in closed form; and by a grid."""
+        c, given, limits = self.data.kind, self.data.arm, self.data.limits
+        rows = [] if given is None else given.rows
+        flat = all(r.type == "revolute" and (r.alpha, r.d, r.theta) == (0, 0, 0) and r.a >= 0 for r in rows)
+        fits = given is not None and not any(given.tool_point) and limits is not None and c.task == "planar"
+        fits = fits and flat and len(rows) == len(limits or []) == c.joints >= 3
+        claims.append((f"{len(rows)} links in a plane, the tool at the end of the last, limits of each joint", fits))
+        if not fits or limits is None:
+            return None
+        lengths = np.array([r.a for r in rows])
+        least = float(lengths.min() / lengths.sum())
+        total = bool(abs(lengths.sum() - LINKS) <= _LENGTH and least >= c.least_link - _LENGTH)
+        claims.append((f"{lengths.sum():.6f} m in all, the least link {percent(least)}, said {percent(c.least_link)}", total))
+        alone = all(pair is None for pair in limits[:-1])
+        claims.append(("no joint but the last has artificial limits", alone))
+        if not alone:
+            return None
+        value = area_in_closed_form(lengths, limits[-1])
+        grid = area_by_grid(lengths, np.array([pair or (-np.pi, np.pi) for pair in limits[1:]]))
+        claims.append((f"in closed form {value:.6f} m^2, by a grid {grid:.6f}", abs(grid - value) <= _GRID * value))
+        return value
 
     def _left(self, claims: list[tuple[str, bool]]) -> float | None:
         null = self._null_space(claims)

@@ -23,26 +23,33 @@ Array = NDArray[np.float64]
 NEVER = 1e300  # kernels turn infinity into NaN
 EARLY = 1e-9  # s: what begins at a step's time is there
 STATE = ("q", "told", "place", "shown", "command")  # (n,) each, see `step_kernel`
+EPISODE = 12  # numbers of an episode besides 7 n: its goal
 
 
 @recalled
 def step_kernel(law: Law) -> Kernel:
-    """``(state, [t, dt], p, R, action, noise, code, onset, end, parameters, limits) -> state, error, [miss, turn]``.
+    """``(state, over, episode, action, noise, limits, setting) -> state, over, observation, reward, terminated, truncated``.
 
     A state holds where the joints are, what their sensors tell, where each was when its fault began, what the sensor before
-    a slipping clutch shows, and the command of the last step. The law sees what is told; the action, (n,) rates in units of
-    the velocity limits, is added to its rates. ``limits`` are lower, upper and velocity, (3 n,); ``error`` is that of the
-    task's rows by what is told, ``miss`` and ``turn`` are of the true tool, m and rad.
+    a slipping clutch shows, the command of the last step, and the time. The law sees what is told; the action, (n,) rates in
+    units of the velocity limits, is added to its rates. An episode is where it starts, its goal, place before rotation, and its
+    faults; where ``over`` is 1 the row begins that in place of a step. ``limits`` are lower, upper and velocity, (3 n,);
+    ``setting`` is period, horizon and the two tolerances.
     """
     arm, task, n = law.arm, law.task, law.arm.n
-    state, clock = ca.SX.sym("state", len(STATE) * n), ca.SX.sym("clock", 2)
-    p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-    action, noise, code, onset, end = (ca.SX.sym(x, n) for x in ("action", "noise", "code", "onset", "end"))
-    parameters, limits = ca.SX.sym("parameters", 3 * n), ca.SX.sym("limits", 3 * n)
-    q, told, place, shown, last = (state[k * n : (k + 1) * n] for k in range(len(STATE)))
+    state, over, episode = ca.SX.sym("state", len(STATE) * n + 1), ca.SX.sym("over"), ca.SX.sym("episode", EPISODE + 7 * n)
+    action, noise = ca.SX.sym("action", n), ca.SX.sym("noise", n)
+    limits, setting = ca.SX.sym("limits", 3 * n), ca.SX.sym("setting", 4)
+    period, horizon, near, aligned = ca.vertsplit(setting)
+    start, p, r, code, onset, end, parameters = ca.vertsplit(episode, np.cumsum([0, n, 3, 9, n, n, n, 3 * n]).tolist())
+    r = ca.reshape(r, 3, 3).T
     first, second, third = (parameters[k::3] for k in range(3))
     lower, upper, most = (limits[k * n : (k + 1) * n] for k in range(3))
-    now, after = clock[0], clock[0] + clock[1]
+    fresh = over > 0
+    *places, last = (state[k * n : (k + 1) * n] for k in range(len(STATE)))
+    q, told, place, shown = (ca.if_else(fresh, start, x) for x in places)
+    now, last, step = (ca.if_else(fresh, 0.0, x) for x in (state[-1], last, period))
+    after = now + step
 
     def there(kind: str, time: SX) -> SX:
         """(n,) 1 where a fault of the kind is there."""
@@ -51,20 +58,20 @@ def step_kernel(law: Law) -> Kernel:
     error, _ = task_error(arm, task, told, p, r)
     rates = law.inverse(law.jacobian(told), law.scaled(law.command(error)))
     rates = ca.if_else(ca.sumsqr(rates) < NEVER, rates, ca.SX.zeros(n))  # where the law has no answer: none
-    wanted = _within(rates + action * most, -most, most)
-    command = ca.if_else(there("command_dropout", now), last, wanted)
+    wanted = _within(rates + _within(action, -1.0, 1.0) * most, -most, most)
+    command = ca.if_else(ca.logic_or(there("command_dropout", now), fresh), last, wanted)
     slow = ca.if_else(there("reduced_speed", now), _lesser(first, most), most)
     held = there("locked", now) + there("slipping_clutch", now)
-    moved = q + clock[1] * ca.if_else(held > 0, 0.0, _within(command, -slow, slow))
+    moved = q + step * ca.if_else(held > 0, 0.0, _within(command, -slow, slow))
     reduced = there("reduced_range", now)
     low = ca.if_else(first < 0, place + first, _lesser(second, place))
     high = ca.if_else(_all(first > 0, first < NEVER), place + first, _greater(third, place))
     low, high = (ca.if_else(reduced, a, b) for a, b in ((_greater(low, lower), lower), (_lesser(high, upper), upper)))
-    moved = _within(moved, low, high)
+    moved = ca.if_else(fresh, q, _within(moved, low, high))
 
     begins = _all(onset > now + EARLY, onset <= after + EARLY)
     place = ca.if_else(begins, moved, place)
-    shown = ca.if_else(begins, moved, shown + clock[1] * command)
+    shown = ca.if_else(begins, moved, shown + step * command)
     told = moved + ca.if_else(there("sensor_bias", after), first, 0.0)
     told += ca.if_else(there("sensor_drift", after), first * (after - onset), 0.0)
     told += ca.if_else(there("sensor_noise", after), first * noise, 0.0)
@@ -72,13 +79,26 @@ def step_kernel(law: Law) -> Kernel:
     told = ca.if_else(there("slipping_clutch", after), shown, told)
     seen, _ = task_error(arm, task, told, p, r)
     true, _ = task_error(arm, task, moved, p, r)
-    off = [ca.norm_2(ca.SX(ca.DM(task.rows[:, some].T)) @ true) for some in (slice(0, 3), slice(3, 6))]
-    inputs = [state, clock, p, r, action, noise, code, onset, end, parameters, limits]
-    return Kernel("step with faults", inputs, [ca.vertcat(moved, told, place, shown, command), seen, ca.vertcat(*off)])
+    miss, turn = (ca.norm_2(ca.SX(ca.DM(task.rows[:, some].T)) @ true) for some in (slice(0, 3), slice(3, 6)))
+    terminated = _all(over <= 0, miss <= near, turn <= aligned)
+    truncated = _all(over <= 0, ca.logic_not(terminated), after >= horizon - EARLY)
+    reward = ca.if_else(fresh, 0.0, -(miss + turn))
+    return Kernel(
+        "step with faults",
+        [state, over, episode, action, noise, limits, setting],
+        [
+            ca.vertcat(moved, told, place, shown, command, after),
+            ca.logic_or(terminated, truncated),
+            ca.vertcat(told, seen, command),
+            reward,
+            terminated,
+            truncated,
+        ],
+    )
 
 
-def kernel_rows(batch: FaultBatch) -> tuple[Array, Array, Array, Array]:
-    """Code, onset, end (N, n) and parameters (N, 3 n) of episodes, as the kernel takes them.
+def kernel_rows(batch: FaultBatch) -> Array:
+    """(N, 6 n) code, onset, end and parameters of episodes, as the kernel takes them.
 
     Raises:
         InputError: A fault of a motor's torque, or a lock at an angle, which a loop of rates alone does not have.
@@ -95,7 +115,7 @@ def kernel_rows(batch: FaultBatch) -> tuple[Array, Array, Array, Array]:
     fill = np.array([NEVER, -NEVER, NEVER])  # no travel, no lower, no upper stop
     parameter = np.where(np.isnan(parameter), np.where(ranges[..., None], fill, 0.0), parameter)
     onset, end = (np.where(np.isfinite(x), x, NEVER) for x in (batch.onset, batch.end))
-    return batch.kind.astype(np.float64), onset, end, parameter.reshape(len(batch), -1)
+    return np.concatenate([batch.kind, onset, end, parameter.reshape(len(batch), -1)], axis=1)
 
 
 def _all(*conditions: SX) -> SX:

@@ -13,7 +13,7 @@ from holdfast.errors import HoldfastError, InputError
 from holdfast.faults.batch import batch_of
 from holdfast.faults.entry import KINDS
 from holdfast.faults.events import FaultEvents
-from holdfast.faults.learning.stepping import NEVER, STATE, kernel_rows, step_kernel
+from holdfast.faults.learning.stepping import EPISODE, NEVER, STATE, kernel_rows, step_kernel
 from holdfast.faults.scheme import Faults
 
 try:
@@ -41,6 +41,11 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
     clutches: rates have no torque that could fail. Of each joint the first fault of an episode counts. What has failed is in
     ``info["fault"]``: ``kind`` (N, n) as in :class:`holdfast.faults.FaultBatch`, ``active`` (N, n), ``id`` (N,).
 
+    Arrays are NumPy's. On a GPU (``hf.set_backend("cuda")`` before the environment is made) observations, rewards and both
+    ends, 0 or 1, are arrays of doubles there, for ``from_dlpack`` of PyTorch, JAX or CuPy without a copy, and actions may be;
+    the state stays there. Of each step one number for each arm comes back, whether its episode is over, with the next step,
+    and the numbers of new episodes go there.
+
     Args:
         law: The law, with its arm, task, gain and speed limit.
         num_envs: N.
@@ -51,6 +56,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         start: (n,) where each episode begins; random if not given.
         tolerance: m and rad.
         reveal: False: ``info`` says nothing of the faults, and only ``env.fault`` does, which no policy sees.
+        stream: On a GPU: handle of the stream to use; 1 is the default one.
 
     Attributes:
         fault: What ``info["fault"]`` tells.
@@ -72,6 +78,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         start: Array | None = None,
         tolerance: tuple[float, float] = (5e-3, np.deg2rad(1.0)),
         reveal: bool = True,
+        stream: int = 1,
     ) -> None:
         if VectorEnv is object:
             raise HoldfastError("Gymnasium is not installed; pip install 'holdfast[learn]'")
@@ -86,15 +93,17 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
             )
         self.law, self.num_envs, self.faults = law, int(num_envs), Faults([]) if faults is None else faults
         self.period, self.horizon, self.tolerance, self._reveal = float(period), float(horizon), tolerance, reveal
+        self.stream = stream
         arm, n = law.arm, law.arm.n
         self._lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
         self._upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
         speeds = np.array([joint.velocity for joint in arm.joints])
         speeds = np.where(np.isfinite(speeds), speeds, UNLIMITED)
         finite = [np.clip(limit, -NEVER, NEVER) for limit in (arm.lower, arm.upper)]
-        self._limits = np.tile(np.concatenate([*finite, speeds]), (self.num_envs, 1))
+        self._limits = np.concatenate([*finite, speeds])
         self._goals, self._start = goals or self._random_goals, None if start is None else arm.check_configurations(start)
-        self._kernel = step_kernel(law)
+        self._kernel = step_kernel(law).now()
+        self._on_gpu = self._kernel.backend.startswith("cuda")
         self.metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": []}
         self.single_action_space = Box(-1.0, 1.0, (n,), np.float64)
         self.single_observation_space = Box(-np.inf, np.inf, (2 * n + law.task.m,), np.float64)
@@ -104,91 +113,114 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
 
     def _allocate(self) -> None:
         rows, n = self.num_envs, self.law.arm.n
-        self._state, self._time = np.zeros((rows, len(STATE) * n)), np.zeros(rows)
-        self._place, self._rotation = np.zeros((rows, 3)), np.zeros((rows, 3, 3))
-        self._code, self._onset, self._end = np.full((rows, n), -1.0), np.full((rows, n), NEVER), np.full((rows, n), NEVER)
-        self._parameters, self._error = np.zeros((rows, 3 * n)), np.zeros((rows, self.law.task.m))
+        self._episodes, self._time = np.zeros((rows, EPISODE + 7 * n)), np.zeros(rows)
+        self._code, self._onset, self._end = (self._episodes[:, EPISODE + k * n :][:, :n] for k in (1, 2, 3))
+        self._code[:] = -1.0
         self._episode, self._ids = np.arange(rows) - rows, np.full(rows, FaultEvents().id)
-        self._over = np.ones(rows, dtype=bool)
+        self._over, self._begun = self._put(np.ones(rows)), False
+        # What stays on a GPU from step to step.
+        self._table, self._state, self._silence, *self._setting = map(
+            self._put,
+            [
+                self._episodes,
+                np.zeros((rows, len(STATE) * n + 1)),
+                np.zeros(n),
+                self._limits,
+                np.array([self.period, self.horizon, *self.tolerance]),
+            ],
+        )
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """All arms anew; with a seed also the episodes of the faults from the first one on."""
         if seed is not None:
             self._np_random, self._np_random_seed = np.random.default_rng(seed), seed
             self._allocate()
-        self._begin(np.arange(self.num_envs))
+        everyone = np.arange(self.num_envs)
+        self._begin(everyone)
+        self._over = self._put(np.ones(self.num_envs))
+        self._advance(self._silence, self._noise(everyone))
+        self._time[:] = 0.0
         del options
-        return self._observed(), self._told()
+        return self._results[0], self._told()
 
-    def step(self, actions: Array) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+    def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """One period of all arms. Those whose episode was over begin the next one; their action is passed over.
 
         Raises:
-            InputError: Actions of another shape.
+            InputError: Actions of another shape, or that are not numbers (of arrays on a GPU the next step tells).
         """
-        given = np.asarray(actions, dtype=np.float64)
-        if given.shape != self.action_space.shape:
-            raise InputError(f"actions have shape {given.shape}; they must be {self.action_space.shape}, a row for each arm")
-        anew = np.flatnonzero(self._over)
-        state, error, off = self._advance(np.clip(given, -1.0, 1.0), self.period)
-        self._state, self._error, self._time = state, error, self._time + self.period
-        there = (off[:, 0] <= self.tolerance[0]) & (off[:, 1] <= self.tolerance[1])
-        late = ~there & (self._time >= self.horizon - 1e-9)
-        reward = -off.sum(axis=1)
+        if tuple(np.shape(actions)) != self.action_space.shape:
+            wanted = f"they must be {self.action_space.shape}, a row for each arm"
+            raise InputError(f"actions have shape {tuple(np.shape(actions))}; {wanted}")
+        over = np.asarray(self._over)
+        if np.isnan(over).any():
+            raise InputError(f"{_lost(over)} in the last step, and where that arm was is lost; reset the environment")
+        if not self._on_gpu or _is_on_host(actions):
+            given = np.where(over[:, None] > 0, 0.0, np.clip(np.asarray(actions, dtype=np.float64), -1.0, 1.0))
+            if np.isnan(given).any():
+                raise InputError(f"{_lost(given.sum(axis=1))}; give numbers from -1 to 1")
+            actions = self._put(given)
+        noise, anew = self._noise(np.arange(self.num_envs)), np.flatnonzero(over > 0)
         if anew.size:
-            self._begin(anew)
-            there[anew] = late[anew] = False
-            reward[anew] = 0.0
-        self._over = there | late
-        return self._observed(), reward, there, late, self._told()
+            if not self._begun:
+                self._begin(anew)
+            noise[anew] = self._noise(anew)
+        self._advance(actions, noise)
+        self._time = np.where(over > 0, 0.0, self._time + self.period)
+        observation, reward, terminated, truncated = self._results
+        if not self._on_gpu:
+            terminated, truncated = terminated > 0, truncated > 0
+        return observation, reward, terminated, truncated, self._told()
 
     @property
     def q(self) -> Array:
         """(N, n) where the joints are, rad and m, whatever their sensors tell."""
-        return np.asarray(self._state[:, : self.law.arm.n])
+        return np.asarray(self._state)[:, : self.law.arm.n]
 
     # ---- inside ------------------------------------------------------------------------------------------------------
 
-    def _advance(self, actions: Array, period: float, *, rows: NDArray[np.int64] | slice = slice(None)) -> tuple[Array, ...]:
-        """States, errors and distances of all rows, or of some, after a time."""
-        clock = np.stack([self._time[rows], np.full(len(actions), period)], axis=1)
+    def _put(self, array: Array) -> Any:
+        return self._kernel.upload(array, self.stream) if self._on_gpu else array
+
+    def _noise(self, rows: NDArray[np.int64]) -> Array:
+        """(R, n) of the sensors of some rows; not drawn where no sensor is noisy."""
+        shape = len(rows), self.law.arm.n
         noisy = (self._code[rows] == KINDS.index("sensor_noise")).any()
-        noise = self.np_random.standard_normal(actions.shape) if noisy else np.zeros(actions.shape)
-        given = (self._code, self._onset, self._end, self._parameters, self._limits)
-        where = (self._state[rows], clock, self._place[rows], self._rotation[rows])
-        out = self._kernel(*where, actions, noise, *(part[rows] for part in given))
-        return tuple(np.ascontiguousarray(part) for part in out)
+        return self.np_random.standard_normal(shape) if noisy else np.zeros(shape)
+
+    def _advance(self, actions: Any, noise: Array) -> None:
+        """One call of the kernel."""
+        heard = self._put(noise) if noise.any() else self._silence
+        given = self._state, self._over, self._table, actions, heard, *self._setting
+        # On a GPU the end of what was given would wait for this step: it is kept until the next one.
+        self._before = given
+        made = self._kernel.exchange(*given, stream=self.stream) if self._on_gpu else self._kernel(*given)
+        self._state, self._over, *self._results = made
+        self._begun = False
 
     def _begin(self, rows: NDArray[np.int64]) -> None:
-        """New episodes for some rows."""
+        """Draw the next episodes of some rows."""
         arm, count = self.law.arm, len(rows)
-        self._episode[rows] += self.num_envs
         room = ROOM * (self._upper - self._lower)
         drawn = self.np_random.uniform(self._lower + room, self._upper - room, (count, arm.n))
         q = drawn if self._start is None else np.broadcast_to(self._start, (count, arm.n))
         goals = np.asarray(self._goals(self.np_random, count), dtype=np.float64)
-        if goals.shape != (count, 4, 4):
-            raise InputError(f"goals gave an array of shape {goals.shape}; they must be tool poses ({count}, 4, 4), m")
-        self._place[rows], self._rotation[rows] = goals[:, :3, 3], goals[:, :3, :3]
-        events = [self.faults.draw(arm, episode=int(k), horizon=self.horizon) for k in self._episode[rows]]
-        batch = batch_of(arm.joint_names, events, seed=self.faults.seed, first=0)
-        self._code[rows], self._onset[rows], self._end[rows], self._parameters[rows] = kernel_rows(batch)
+        if goals.shape != (count, 4, 4) or not np.isfinite(goals).all():
+            raise InputError(f"goals gave an array of shape {goals.shape}; they must be finite tool poses ({count}, 4, 4), m")
+        episodes = self._episode[rows] + self.num_envs
+        events = [self.faults.draw(arm, episode=int(k), horizon=self.horizon) for k in episodes]
+        faults = kernel_rows(batch_of(arm.joint_names, events, seed=self.faults.seed, first=0))
+        place, rotation = goals[:, :3, 3], goals[:, :3, :3].reshape(count, 9)
+        self._episodes[rows] = np.concatenate([q, place, rotation, faults], axis=1)
+        if self._on_gpu:
+            self._table.update(rows, self._episodes)
         self._ids[rows] = [each.id for each in events]
-        self._state[rows] = np.concatenate([q, q, q, q, np.zeros(q.shape)], axis=1)
-        self._time[rows], self._over[rows] = 0.0, False
-        # A step of no time: what is told, and the error, at the beginning.
-        state, error, _ = self._advance(np.zeros((count, arm.n)), 0.0, rows=rows)
-        self._error[rows] = error
-        self._state[rows, arm.n : 2 * arm.n] = state[:, arm.n : 2 * arm.n]
+        self._episode[rows], self._begun = episodes, True
 
     def _random_goals(self, generator: np.random.Generator, count: int) -> Array:
         room = ROOM * (self._upper - self._lower)
         q = generator.uniform(self._lower + room, self._upper - room, (count, self.law.arm.n))
         return self.law.arm.forward_kinematics(q)
-
-    def _observed(self) -> Array:
-        n = self.law.arm.n
-        return np.concatenate([self._state[:, n : 2 * n], self._error, self._state[:, -n:]], axis=1)
 
     def _told(self) -> dict[str, Any]:
         time = self._time[:, None]
@@ -199,3 +231,11 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
             "id": self._ids.copy(),
         }
         return {"fault": self.fault, "_fault": np.ones(self.num_envs, dtype=bool)} if self._reveal else {}
+
+
+def _lost(rows: Array) -> str:
+    return f"the action of arm {int(np.flatnonzero(np.isnan(rows))[0])} is not a number"
+
+
+def _is_on_host(array: Any) -> bool:
+    return not hasattr(array, "__dlpack_device__") or int(array.__dlpack_device__()[0]) == 1  # kDLCPU

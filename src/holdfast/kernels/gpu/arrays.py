@@ -7,52 +7,28 @@ from __future__ import annotations
 
 import ctypes
 import math
-from ctypes import POINTER, Structure, c_int32, c_int64, c_uint8, c_uint16, c_uint64, c_void_p, py_object, pythonapi
+import struct
+from ctypes import c_char, c_int64, c_void_p, py_object, pythonapi
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from holdfast.errors import InputError
-from holdfast.kernels.gpu.driver import Device, Memory
+from holdfast.kernels.gpu.driver import LEGACY_STREAM, Device, Memory
+
+Array = NDArray[np.float64]
 
 _CUDA = 2  # kDLCUDA
 _NAME = b"dltensor"
 
 
-class _Tensor(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("device_type", c_int32),
-        ("device_id", c_int32),
-        ("ndim", c_int32),
-        ("code", c_uint8),
-        ("bits", c_uint8),
-        ("lanes", c_uint16),
-        ("shape", POINTER(c_int64)),
-        ("strides", POINTER(c_int64)),
-        ("byte_offset", c_uint64),
-    ]
-
-
-class _Managed(Structure):
-    _fields_ = [("tensor", _Tensor), ("context", c_void_p), ("deleter", c_void_p)]
-
-
-_new = ctypes.PYFUNCTYPE(py_object, c_void_p, ctypes.c_char_p, c_void_p)(("PyCapsule_New", pythonapi))
+# Of a tensor: data, kind and number of the device, axes, code, bits and lanes of the type, shape, strides, offset in bytes.
+_TENSOR = struct.Struct("PiiiBBHPPQ")
+_DEVICE = 8  # bytes before the kind of the device
+_DOUBLE = [2, 64, 1]  # kDLFloat
 _pointer = ctypes.PYFUNCTYPE(c_void_p, py_object, ctypes.c_char_p)(("PyCapsule_GetPointer", pythonapi))
-_is_valid = ctypes.PYFUNCTYPE(ctypes.c_int, c_void_p, ctypes.c_char_p)(("PyCapsule_IsValid", pythonapi))
-_pointer_of = ctypes.PYFUNCTYPE(c_void_p, c_void_p, ctypes.c_char_p)(("PyCapsule_GetPointer", pythonapi))
-_lent: dict[int, tuple[Any, ...]] = {}  # what others hold, by the address of its description
-
-
-def _forget(address: int) -> None:
-    _lent.pop(address, None)
-
-
-def _forget_untaken(capsule: int) -> None:
-    if _is_valid(capsule, _NAME):
-        _lent.pop(_pointer_of(capsule, _NAME), None)
-
-
-_release, _capsule_ends = ctypes.CFUNCTYPE(None, c_void_p)(_forget), ctypes.PYFUNCTYPE(None, c_void_p)(_forget_untaken)
 
 
 class DeviceArray:
@@ -66,8 +42,27 @@ class DeviceArray:
     """
 
     def __init__(self, memory: Memory, offset: int, shape: tuple[int, ...], *, strides: tuple[int, ...], stream: int) -> None:
-        self._memory, self.shape, self.strides, self.stream = memory, shape, strides, stream
+        self._memory, self._offset, self.shape, self.strides, self.stream = memory, offset, shape, strides, stream
         self.pointer = memory.pointer + 8 * offset
+
+    @classmethod
+    def of(cls, array: Array, device: Device, stream: int = LEGACY_STREAM) -> DeviceArray:
+        """A copy of an array of the host."""
+        made = cls(Memory(device, array.size), 0, array.shape, strides=_contiguous(array.shape), stream=stream)
+        made._memory.put(np.ascontiguousarray(array), stream)
+        return made
+
+    def update(self, rows: NDArray[np.int64], array: Array) -> None:
+        """Copy rows of the array again of which this is a copy; rows one after the other go at once."""
+        for run in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
+            self._memory.put(array[run[0] : run[-1] + 1], self.stream, int(run[0]) * self.strides[0])
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        """A copy on the host, when it is computed."""
+        flat = np.empty(math.prod(self.shape))
+        self._memory.get(flat, self.stream, self._offset)
+        found = np.lib.stride_tricks.as_strided(flat, self.shape, [8 * s for s in self.strides])
+        return found if dtype is None else found.astype(dtype)
 
     def __dlpack_device__(self) -> tuple[int, int]:
         return _CUDA, self._memory.device.ordinal
@@ -75,13 +70,12 @@ class DeviceArray:
     def __dlpack__(self, *, stream: int | None = None, **_: Any) -> Any:
         if stream not in (self.stream, -1):  # another stream must not begin before this one is done
             self._memory.device.wait(self.stream)
-        axes = len(self.shape)
-        shape, strides = (c_int64 * axes)(*self.shape), (c_int64 * axes)(*self.strides)
-        tensor = _Tensor(self.pointer, _CUDA, self._memory.device.ordinal, axes, 2, 64, 1, shape, strides, 0)
-        managed = _Managed(tensor, None, ctypes.cast(_release, c_void_p))
-        address = ctypes.addressof(managed)
-        _lent[address] = managed, shape, strides, self._memory
-        return _new(address, _NAME, ctypes.cast(_capsule_ends, c_void_p))
+        # NumPy makes the capsule, which keeps the memory, and gives it back whatever becomes of it; it never looks at the data.
+        strides = tuple(8 * step for step in self.strides)
+        about = {"data": (self.pointer, False), "shape": self.shape, "strides": strides, "typestr": "=f8", "version": 3}
+        capsule = np.asarray(SimpleNamespace(__array_interface__=about, memory=self._memory)).__dlpack__()
+        struct.pack_into("ii", (c_char * 16).from_address(_pointer(capsule, _NAME)), _DEVICE, *self.__dlpack_device__())
+        return capsule
 
 
 class Lent:
@@ -107,11 +101,12 @@ class Lent:
         if where != (_CUDA, device.ordinal):
             raise InputError(f"an input is not an array on GPU {device.ordinal}: {type(array).__name__}, DLPack device {where}")
         self._capsule = array.__dlpack__(stream=stream)  # its end gives the array back
-        tensor = _Managed.from_address(_pointer(self._capsule, _NAME)).tensor
-        if (tensor.code, tensor.bits, tensor.lanes) != (2, 64, 1):
-            raise InputError(f"an input on the GPU has {tensor.bits} bits of DLPack type {tensor.code}; give doubles")
-        shape = tuple(tensor.shape[: tensor.ndim])
-        strides = tuple(tensor.strides[: tensor.ndim]) if tensor.strides else _contiguous(shape)
+        tensor = ctypes.string_at(_pointer(self._capsule, _NAME), _TENSOR.size)
+        data, _, _, axes, *kind, at, strides_at, offset = _TENSOR.unpack(tensor)
+        if kind != _DOUBLE:
+            raise InputError(f"an input on the GPU has {kind[1]} bits of DLPack type {kind[0]}; give doubles")
+        shape = tuple((c_int64 * axes).from_address(at)) if axes else ()
+        strides = tuple((c_int64 * axes).from_address(strides_at)) if strides_at else _contiguous(shape)
         batch = len(shape) - len(dims)
         if batch not in (0, 1) or shape[batch:] != dims:
             raise InputError(f"an input on the GPU has shape {shape}; it must be (N, {', '.join(map(str, dims))}) or {dims}")
@@ -120,7 +115,7 @@ class Lent:
         expected = [self.column * step for step in _contiguous(tuple(size for size, _ in inner))]
         if [stride for _, stride in inner] != expected:
             raise InputError(f"an input on the GPU has strides {strides}, whose rows have gaps; make it contiguous")
-        self.pointer = tensor.data + tensor.byte_offset
+        self.pointer = data + offset
         self.rows: int | None = shape[0] if batch else None
         self.row: int = strides[0] if batch else 0
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import ctypes
 import weakref
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -16,7 +14,6 @@ from holdfast.errors import KernelError
 
 LEGACY_STREAM = 1  # the stream that waits for all others: the handle of the driver, and the number in DLPack
 _BLOCK = 128  # threads: enough blocks for every multiprocessor from some ten thousand rows on
-_MOST_BLOCKS = 1 << 20  # beyond that a thread takes several rows
 
 
 @lru_cache(maxsize=1)
@@ -69,33 +66,30 @@ class Device:
         if not 0 <= ordinal < count:
             raise KernelError(f"there is no GPU {ordinal}: the driver has {count}, counted from 0")
         self.ordinal = ordinal
-        self._device = _checked("be found", driver.cuDeviceGet(ordinal))
-        self.capability = 10 * self._attribute("MAJOR") + self._attribute("MINOR")
-        self._context = _checked("be used", driver.cuDevicePrimaryCtxRetain(self._device))
+        found = _checked("be found", driver.cuDeviceGet(ordinal))
+        kinds = (f"CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_{part}" for part in ("MAJOR", "MINOR"))
+        asked = [driver.cuDeviceGetAttribute(getattr(driver.CUdevice_attribute, kind), found) for kind in kinds]
+        major, minor = (int(_checked("tell its capability", answer)) for answer in asked)
+        self.capability = 10 * major + minor
+        self._context = _checked("be used", driver.cuDevicePrimaryCtxRetain(found))
 
-    def _attribute(self, which: str) -> int:
-        driver = _bindings()
-        kind = getattr(driver.CUdevice_attribute, f"CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_{which}")
-        return int(_checked("tell its capability", driver.cuDeviceGetAttribute(kind, self._device)))
+    def do(self, what: str, name: str, *arguments: Any) -> Any:
+        """Call a function of the driver for this device; ``what`` it could not do is said where it fails.
 
-    @contextmanager
-    def _current(self) -> Iterator[Any]:
+        Raises:
+            KernelError: It failed, or a kernel before it did.
+        """
         driver = _bindings()
         _checked("be used", driver.cuCtxPushCurrent(self._context))
         try:
-            yield driver
+            return _checked(what, getattr(driver, name)(*arguments))
         finally:
             driver.cuCtxPopCurrent()
 
-    def memory(self, count: int) -> Memory:
-        """Room for so many doubles."""
-        return Memory(self, count)
-
     def function(self, ptx: bytes, name: str) -> Any:
         """A kernel of a module; the driver translates it for the device and keeps that for the next time."""
-        with self._current() as driver:
-            module = _checked("load a kernel", driver.cuModuleLoadData(ptx + b"\0"))
-            return _checked("find a kernel", driver.cuModuleGetFunction(module, name.encode()))
+        module = self.do("load a kernel", "cuModuleLoadData", ptx + b"\0")
+        return self.do("find a kernel", "cuModuleGetFunction", module, name.encode())
 
     def launch(self, function: Any, arguments: Sequence[Any], rows: int, stream: int) -> None:
         """Start a kernel on a stream, a thread for each row.
@@ -106,57 +100,50 @@ class Device:
             rows: At least 1.
             stream: Handle.
         """
-        blocks = min(-(-rows // _BLOCK), _MOST_BLOCKS)
         given = tuple(a.value for a in arguments), tuple(type(a) for a in arguments)
-        with self._current() as driver:
-            handle = driver.CUstream(stream)
-            _checked("start a kernel", driver.cuLaunchKernel(function, blocks, 1, 1, _BLOCK, 1, 1, 0, handle, given, 0))
+        grid = -(-rows // _BLOCK), 1, 1, _BLOCK, 1, 1
+        self.do("start a kernel", "cuLaunchKernel", function, *grid, 0, _handle(stream), given, 0)
 
     def wait(self, stream: int) -> None:
         """Until all that was put on a stream is done; an error of a kernel shows here."""
-        with self._current() as driver:
-            _checked("finish", driver.cuStreamSynchronize(driver.CUstream(stream)))
+        self.do("finish", "cuStreamSynchronize", _handle(stream))
+
+
+def _handle(stream: int) -> Any:
+    return _bindings().CUstream(stream)
 
 
 class Memory:
     """Doubles on a device, given back when nobody has them any more.
 
-    Attributes:
+    Args:
         device: Where.
+        count: How many.
+
+    Attributes:
+        device: The same.
         pointer: Address there.
-        count: Room.
     """
 
     def __init__(self, device: Device, count: int) -> None:
-        self.device, self.count = device, count
-        with device._current() as driver:
-            self.pointer = int(_checked(f"give {8 * count / 2**20:.0f} MB", driver.cuMemAlloc(max(8 * count, 8))))
-        weakref.finalize(self, _free, device, self.pointer).atexit = False  # the driver ends before Python does
+        self.device, size = device, max(8 * count, 8)
+        self.pointer = int(device.do(f"give {size / 2**20:.0f} MB", "cuMemAlloc", size))
+        end = weakref.finalize(self, device.do, "give memory back", "cuMemFree", self.pointer)
+        end.atexit = False  # the driver ends before Python does
 
-    def put(self, array: NDArray[np.float64], stream: int) -> None:
-        """Copy a contiguous array to the beginning."""
-        with self.device._current() as driver:
-            _checked(
-                "take data", driver.cuMemcpyHtoDAsync(self.pointer, array.ctypes.data, array.nbytes, driver.CUstream(stream))
-            )
+    def put(self, array: NDArray[np.float64], stream: int, at: int = 0) -> None:
+        """Copy a contiguous array there, from number ``at`` on."""
+        start = self.pointer + 8 * at
+        self.device.do("take data", "cuMemcpyHtoDAsync", start, array.ctypes.data, array.nbytes, _handle(stream))
 
-    def get(self, array: NDArray[np.float64], stream: int) -> None:
-        """Copy the beginning into a contiguous array, and wait for that."""
-        with self.device._current() as driver:
-            handle = driver.CUstream(stream)
-            _checked("give data", driver.cuMemcpyDtoHAsync(array.ctypes.data, self.pointer, array.nbytes, handle))
-            _checked("finish", driver.cuStreamSynchronize(handle))
-
-
-def _free(device: Device, pointer: int) -> None:
-    with device._current() as driver:
-        driver.cuMemFree(pointer)
+    def get(self, array: NDArray[np.float64], stream: int, at: int = 0) -> None:
+        """Copy what is there from number ``at`` on into a contiguous array, and wait for that."""
+        start = self.pointer + 8 * at
+        self.device.do("give data", "cuMemcpyDtoHAsync", array.ctypes.data, start, array.nbytes, _handle(stream))
+        self.device.wait(stream)
 
 
 @lru_cache
 def device(ordinal: int) -> Device:
     """The device of a number, found once."""
     return Device(ordinal)
-
-
-Pointer, Whole, Double = ctypes.c_void_p, ctypes.c_int64, ctypes.c_double

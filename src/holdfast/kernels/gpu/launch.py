@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from ctypes import c_double, c_int64, c_void_p
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.kernels.gpu.arrays import DeviceArray, Lent
-from holdfast.kernels.gpu.driver import LEGACY_STREAM, Device, Double, Memory, Pointer, Whole, device
+from holdfast.kernels.gpu.driver import LEGACY_STREAM, Memory, device
 from holdfast.kernels.gpu.ptx import ptx_text
 from holdfast.kernels.llvm.translation import NAME
 from holdfast.kernels.program import Program
@@ -36,46 +37,41 @@ class OnDevice:
     def __init__(self, program: Program, ordinal: int) -> None:
         self.program, self.device = program, device(ordinal)
         self._function = self.device.function(ptx_text(program, self.device.capability), NAME)
-        self._sizes = [rows * columns for rows, columns in program.input_shapes]
+
+    def _start(self, function: Any, given: Sequence[tuple[int, ...]], size: int, *, rows: int, stream: int, how: Any) -> Memory:
+        """``size`` results of each row, column by column; inputs by address, and how far apart rows and columns are."""
+        result = Memory(self.device, size * rows)
+        if rows:
+            arguments = [number for at, *apart in given for number in (c_void_p(at), *map(c_int64, apart))]
+            arguments += [c_void_p(result.pointer), c_int64(1), c_int64(rows), *how, c_int64(rows)]
+            self.device.launch(function, arguments, rows, stream)
+        return result
 
     # ---- arrays of the host ------------------------------------------------------------------------------------
 
     def rows(self, arrays: list[Array], count: int, first: int) -> Array:
         """Results (count, first) of inputs (count, size) or (1, size) each."""
-        out = np.empty((count, first))
-        width = self._fits(count, self.program.n_in + self.program.n_out)
-        result = self.device.memory(self.program.n_out * width)
-        # What is the same for every row is copied once.
-        room = [_put(self.device, a) if len(a) == 1 else self.device.memory(a.shape[1] * width) for a in arrays]
-        for start in range(0, count, width):
-            stop = min(start + width, count)
-            given: list[Any] = []
-            for a, memory in zip(arrays, room, strict=True):
-                if len(a) > 1:
-                    memory.put(np.ascontiguousarray(a[start:stop]), LEGACY_STREAM)
-                given += [Pointer(memory.pointer), Whole(a.shape[1] if len(a) > 1 else 0), Whole(1)]
-            out[start:stop] = self._columns(self._function, given, result, self.program.n_out, stop - start)[:first].T
+        out, size = np.empty((count, first)), self.program.n_out
+        for part in self._parts(count, self.program.n_in + size):
+            out[part] = self._copied(self._function, [a if len(a) == 1 else a[part] for a in arrays], size)[:first].T
         return out
 
     def columns(self, inputs: Array, outputs: Array) -> None:
         """Results of columns (n_in, W) into columns (n_out, W): what :meth:`holdfast.kernels.Kernel.bound` does."""
-        width, given, at = inputs.shape[1], [], 0
-        memory = _put(self.device, np.ascontiguousarray(inputs))
-        for size in self._sizes:
-            given += [Pointer(memory.pointer + 8 * at * width), Whole(1), Whole(width)]
-            at += size
-        result = self.device.memory(outputs.size)
-        outputs[:] = self._columns(self._function, given, result, len(outputs), width)
+        ends = np.cumsum([rows * columns for rows, columns in self.program.input_shapes])
+        outputs[:] = self._copied(self._function, np.split(inputs.T, ends[:-1], axis=1), len(outputs))
 
-    def _columns(self, function: Any, given: list[Any], result: Memory, size: int, rows: int, *more: Any) -> Array:
-        arguments = [*given, Pointer(result.pointer), Whole(1), Whole(rows), *more, Whole(rows)]
-        self.device.launch(function, arguments, rows, LEGACY_STREAM)
+    def _copied(self, function: Any, arrays: list[Array], size: int, *how: Any) -> Array:
+        """(size, N) of inputs (N, ...), or (1, ...) for all rows: there and back."""
+        there, rows = [DeviceArray.of(a, self.device) for a in arrays], max(map(len, arrays))
+        given = [(x.pointer, a.shape[1] if len(a) > 1 else 0, 1) for x, a in zip(there, arrays, strict=True)]
         found = np.empty((size, rows))
-        result.get(found, LEGACY_STREAM)
+        self._start(function, given, size, rows=rows, stream=LEGACY_STREAM, how=how).get(found, LEGACY_STREAM)
         return found
 
-    def _fits(self, count: int, numbers: int) -> int:
-        return max(1, min(count, _MOST_BYTES // (8 * numbers)))
+    def _parts(self, count: int, numbers: int) -> list[slice]:
+        width = max(1, min(count, _MOST_BYTES // (8 * numbers)))
+        return [slice(start, min(start + width, count)) for start in range(0, count, width)]
 
     # ---- arrays of the device ----------------------------------------------------------------------------------
 
@@ -86,11 +82,8 @@ class OnDevice:
         if len(counts) > 1:
             raise InputError(f"inputs on the GPU have {' and '.join(map(str, sorted(counts)))} rows; give one number of rows")
         rows = counts.pop() if counts else 1
-        result = self.device.memory(self.program.n_out * rows)
-        if rows:
-            given = [number for x in lent for number in (Pointer(x.pointer), Whole(x.row), Whole(x.column))]
-            given += [Pointer(result.pointer), Whole(1), Whole(rows), Whole(rows)]
-            self.device.launch(self._function, given, rows, stream)
+        given = [(x.pointer, x.row, x.column) for x in lent]
+        result = self._start(self._function, given, self.program.n_out, rows=rows, stream=stream, how=())
         made, at = [], 0
         for d, (r, c) in zip(dims[1], self.program.output_shapes, strict=True):
             inner = {0: (), 1: (rows,), 2: (c * rows, rows)}[len(d)]
@@ -114,19 +107,12 @@ class OnDevice:
         count, size = state.shape
         found = np.full((size + 3, count), np.nan)
         found[:size], found[size + 1 :] = state.T, 0.0
-        width = self._fits(count, self.program.n_in + size + 3)
-        for start in range(0, count, width):
-            left, taken = np.arange(start, min(start + width, count)), 0
+        for part in self._parts(count, self.program.n_in + size + 3):
+            left, taken = np.arange(count)[part], 0
             while left.size:
                 stretch = min(_STRETCH, most - taken)
-                given: list[Any] = []
-                kept = []
-                for a in (found[:size, left].T, parameters[left]):
-                    kept.append(_put(self.device, np.ascontiguousarray(a)))
-                    given += [Pointer(kept[-1].pointer), Whole(a.shape[1]), Whole(1)]
-                result = self.device.memory(len(found) * left.size)
-                how = Double(tolerance), Whole(ahead), Whole(stretch)
-                out = self._columns(self._steps, given, result, len(found), left.size, *how)
+                how = c_double(tolerance), c_int64(ahead), c_int64(stretch)
+                out = self._copied(self._steps, [found[:size, left].T, parameters[left]], len(found), *how)
                 out[-1] += taken
                 found[:, left], taken = out, taken + stretch
                 done = out[-2] > 0
@@ -134,9 +120,3 @@ class OnDevice:
                 ended(int(np.count_nonzero(over)), int(np.count_nonzero(done)))
                 left = left[~over]
         return found[:size].T.copy(), found[size], found[size + 1] > 0, found[size + 2].astype(np.int64)
-
-
-def _put(where: Device, array: Array) -> Memory:
-    memory = where.memory(array.size)
-    memory.put(array, LEGACY_STREAM)
-    return memory

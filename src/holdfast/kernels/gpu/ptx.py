@@ -2,7 +2,7 @@
 
 The body is that of the processor's code, so the same bits come out of both where both have fused multiply-add: additions,
 products, quotients, roots and fused products are rounded to nearest on either, and nothing else is used. For tests the same
-text is made for the processor, where a loop takes the place of the grid of threads.
+text is made for the processor, where a thread's number is an argument.
 
 Sources: LLVM's user guide for NVPTX; the PTX manual for its registers.
 """
@@ -21,7 +21,7 @@ from holdfast.kernels.program import Program
 
 ARCHITECTURES = (70, 75, 80, 86, 89, 90)  # sm_70 and so on; the driver translates for later ones
 _TRIPLE = "nvptx64-nvidia-cuda"
-_READS = {name: f"llvm.nvvm.read.ptx.sreg.{name}.x" for name in ("tid", "ntid", "ctaid", "nctaid")}
+_READS = {name: f"llvm.nvvm.read.ptx.sreg.{name}.x" for name in ("tid", "ntid", "ctaid")}
 
 
 def ptx_text(program: Program, capability: int, *, state: int | None = None) -> bytes:
@@ -72,7 +72,7 @@ class DeviceRows(Emitter):
     Args:
         program: What to compute.
         machine: Whether fused multiply-add is there; every GPU has it.
-        on_device: False: for the processor, all rows one after the other.
+        on_device: False: for the processor, the row's number after n as the last argument.
     """
 
     def __init__(self, program: Program, machine: Machine | None = None, *, on_device: bool = True) -> None:
@@ -92,36 +92,23 @@ class DeviceRows(Emitter):
     def _framed(self, body: str, more: str = "") -> str:
         given = [f"{self.pointer} noalias %in{j}, i64 %row{j}, i64 %column{j}" for j in range(len(self.sizes))]
         given += [f"{self.pointer} noalias %out, i64 %row, i64 %column{more}", "i64 %n"]
-        start = "%first = add i64 0, 0\n%apart = add i64 0, 1"
+        kind, thread = "ptx_kernel ", []
         if self.on_device:
             self.declared |= {f"declare i32 @{name}()" for name in _READS.values()}
-            reads = [
-                f"%{k}32 = call i32 @{name}()\n%{k} = zext i32 %{k}32 to i64"  # a grid may have more than 2^32 threads
-                for k, name in _READS.items()
+            for k, name in _READS.items():  # a grid may have more than 2^32 threads
+                thread += [f"%{k}32 = call i32 @{name}()", f"%{k} = zext i32 %{k}32 to i64"]
+            thread += ["%before = mul i64 %ctaid, %ntid", "%i = add i64 %before, %tid"]
+        else:
+            given, kind = [*given, "i64 %i"], ""
+        return "\n".join(
+            [
+                *sorted(self.declared),
+                f"define {kind}void @{NAME}({', '.join(given)}) nounwind {{",
+                *["entry:", *thread, "%some = icmp ult i64 %i, %n", "br i1 %some, label %start, label %end"],
+                *["start:", body, "br label %end"],
+                *["end:", "ret void", "}"],
             ]
-            start = "\n".join([*reads, "%block = mul i64 %ctaid, %ntid", "%first = add i64 %block, %tid"])
-            start += "\n%apart = mul i64 %nctaid, %ntid"
-        head = "\n".join(sorted(self.declared))
-        return f"""{head}
-define {"ptx_kernel " if self.on_device else ""}void @{NAME}({", ".join(given)}) nounwind {{
-entry:
-{start}
-br label %start
-start:
-%some = icmp ult i64 %first, %n
-br i1 %some, label %loop, label %end
-loop:
-%i = phi i64 [%first, %start], [%after, %next]
-{body}
-br label %next
-next:
-%after = add i64 %i, %apart
-%more = icmp ult i64 %after, %n
-br i1 %more, label %loop, label %end
-end:
-ret void
-}}
-"""
+        )
 
     def _bases(self) -> None:
         """Where row i of each input and of the results begins."""
@@ -165,43 +152,29 @@ class DeviceLoop(DeviceRows):
 
     def text(self) -> str:
         """The whole module."""
-        size = self._state
+        size, load, store = self._state, super()._load, super()._store
         self._bases()
-        begin = [super(DeviceLoop, self)._load(k) for k in range(size)]
-        begun = len(self.lines)
-        self._now = [f"%s{k}" for k in range(size)]
+        tolerance = self._spread("%tolerance")
+        begin = [load(k) for k in range(size)]
+        self.lines += ["br label %step", "step:", "%k = phi i64 [%ahead, %start], [%k1, %again]"]
+        top, self._now = len(self.lines), [f"%s{k}" for k in range(size)]
         self.body(self.guard())
-        measured = self._results[size]
-        small = self.compare("ole", measured, "%tolerance1")
-        for k in range(size):
-            super()._store(k, self._new(f"select i1 %is_ahead, {self.type} {self._results[k]}, {self.type} %s{k}"))
-        cut = len(self.lines) - 3 * size  # what is stored, once at the end
-        for k, value in enumerate([measured, self.select(small, self.number(1.0), self.number(0.0)), "%steps1"]):
-            super()._store(size + k, value)
-        turns = "\n".join(f"%s{k} = phi {self.type} [{begin[k]}, %loop], [{self._results[k]}, %again]" for k in range(size))
-        lines = self.lines
-        return self._framed(
-            f"""%is_ahead = icmp ne i64 %ahead, 0
-{_spread("%tolerance1", "%tolerance", self.type)}
-{chr(10).join(lines[:begun])}
-br label %step
-step:
-%k = phi i64 [%ahead, %loop], [%k1, %again]
-{turns}
-{chr(10).join(lines[begun:cut])}
-%small = extractelement {self.mask} {small}, i32 0
-%late = icmp sge i64 %k, %most
-%over = or i1 %small, %late
-br i1 %over, label %write, label %again
-again:
-%k1 = add i64 %k, 1
-br label %step
-write:
-%steps = uitofp i64 %k to double
-{_spread("%steps1", "%steps", self.type)}
-{chr(10).join(lines[cut:])}""",
-            ", double %tolerance, i64 %ahead, i64 %most",
-        )
+        *after, measured = (self._results[k] for k in range(size + 1))
+        small = self.compare("ole", measured, tolerance)
+        turns = zip(self._now, begin, after, strict=True)
+        self.lines[top:top] = [f"{s} = phi {self.type} [{first}, %start], [{then}, %again]" for s, first, then in turns]
+        self.lines += [
+            *[f"%small = extractelement {self.mask} {small}, i32 0", "%late = icmp sge i64 %k, %most"],
+            *["%over = or i1 %small, %late", "br i1 %over, label %write, label %again"],
+            *["again:", "%k1 = add i64 %k, 1", "br label %step"],
+            *["write:", "%is_ahead = icmp ne i64 %ahead, 0", "%steps = uitofp i64 %k to double"],
+        ]
+        ends = [
+            self._new(f"select i1 %is_ahead, {self.type} {a}, {self.type} {s}") for a, s in zip(after, self._now, strict=True)
+        ]
+        for k, value in enumerate([*ends, measured, self.truth(small), self._spread("%steps")]):
+            store(k, value)
+        return self._framed("\n".join(self.lines), ", double %tolerance, i64 %ahead, i64 %most")
 
     def _load(self, k: int) -> str:
         return self._now[k] if k < self._state else super()._load(k)
@@ -209,6 +182,5 @@ write:
     def _store(self, k: int, value: str) -> None:
         self._results[k] = value
 
-
-def _spread(name: str, of: str, kind: str) -> str:
-    return f"{name} = insertelement {kind} poison, double {of}, i32 0"
+    def _spread(self, number: str) -> str:
+        return self._new(f"insertelement {self.type} poison, double {number}, i32 0")

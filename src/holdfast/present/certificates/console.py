@@ -14,7 +14,7 @@ from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier import per_cent
 from holdfast.present import results
-from holdfast.present.certificates import slices
+from holdfast.present.certificates import joint_boxes, slices
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
 
@@ -48,7 +48,7 @@ def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
 
 def state(now: SearchState) -> str:
     """One line of how far a search has come: shares are never rounded up to the whole or down to nothing."""
-    shares = [f"proved {per_cent(Fraction(min(now.proved, 1.0)))}", "refuted 0 %"]
+    shares = [f"{key} {per_cent(Fraction(min(getattr(now, key), 1.0)))}" for key in ("proved", "refuted")]
     rest = [
         f"{name} {per_cent(Fraction(max(part, 0.0)), up=True)}"
         for name, part in (("undecided", now.undecided), ("open", now.open))
@@ -58,7 +58,7 @@ def state(now: SearchState) -> str:
 
 def _shares(found: Found) -> dict[str, Fraction]:
     if isinstance(found, CertificateCheck):
-        return {"undecided": found.undecided, "tolerant": found.tolerant}
+        return {"refuted": found.refuted, "undecided": found.undecided, "tolerant": found.tolerant}
     said = {"proved": found.proved, "undecided": found.undecided}
     return said | {"tolerant": found.tolerant} if isinstance(found, TolerantProof) else said
 
@@ -69,7 +69,9 @@ def _lock(check: CertificateCheck) -> str:
 
 def story(found: Found | StructuralZero) -> Story:
     """What its page says."""
-    return slices.story(found) if isinstance(found, Proof | TolerantProof) else results.story(found)
+    if isinstance(found, Proof | TolerantProof):
+        return slices.story(found)
+    return joint_boxes.story(found) if isinstance(found, Refutation | ManipulabilityBound) else results.story(found)
 
 
 def next_steps(found: Found | StructuralZero, name: str) -> list[str]:
@@ -100,6 +102,7 @@ def key_table(found: Found | StructuralZero) -> Rows:
         rows = [
             ["accepted", f"{found.accepted:,}"],
             ["rejected", f"{found.rejected:,}"],
+            ["refuted", per_cent(found.refuted)],
             ["undecided", per_cent(found.undecided, up=True)],
         ]
         return Rows(["", ""], rows)
@@ -113,10 +116,11 @@ def _by_lock(found: Found) -> list[Rows]:
     """Of each part."""
     if isinstance(found, CertificateCheck):
         rows = [
-            [_lock(p), per_cent(1 - p.undecided), per_cent(p.undecided, up=True), f"{p.accepted:,}", f"{p.rejected:,}"]
+            [_lock(p), per_cent(1 - p.refuted - p.undecided), per_cent(p.refuted), per_cent(p.undecided, up=True), *counts]
             for p in found.parts
+            for counts in [[f"{p.accepted:,}", f"{p.rejected:,}"]]
         ]
-        return [Rows(["lock of", "proved", "undecided", "accepted", "rejected"], rows)] if rows else []
+        return [Rows(["lock of", "proved", "refuted", "undecided", "accepted", "rejected"], rows)] if rows else []
     if isinstance(found, TolerantProof):
         head = ["lock of", "proved, not yet verified", "undecided", "cells", "s"]
         cells = [[f"{p.leaves:,}", f"{p.seconds:.1f}"] for p in found.parts]

@@ -9,6 +9,8 @@ import numpy as np
 from holdfast.certificates import documents
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.verifier import Cell, per_cent
+from holdfast.present.certificates.pages import UNVERIFIED, kept
+from holdfast.present.certificates.pages import write as write
 from holdfast.present.story import Story
 
 if TYPE_CHECKING:
@@ -105,16 +107,16 @@ def story(found: Proof | TolerantProof) -> Story:
     answer = "Nothing is proved: all is undecided."
     if share:
         rest = "the rest is undecided" if share < 1 else "nothing is undecided"
-        answer = f"Of the {of}, {_kept(per_cent(share))} are proved to be reached{whatever}; {rest}."
+        answer = f"Of the {of}, {kept(per_cent(share))} are proved to be reached{whatever}; {rest}."
     where = (
         "wherever a joint locks, and while healthy" if tolerant else "at every locked angle" if locked >= 0 else "within limits"
     )
     turned = ", turned in every way" if len(found.claim.box) > 3 else ""
     return Story(
         f"What is proved of {arm.name}",
-        f"{answer} Found by the prover, not yet verified.",
+        f"{answer} {UNVERIFIED}",
         lines=[document["claim"]],
-        facts=[(_kept(per_cent(share)), f"of the {of}{whatever}"), (f"{found.leaves:,}", "boxes, each with one configuration")],
+        facts=[(kept(per_cent(share)), f"of the {of}{whatever}"), (f"{found.leaves:,}", "boxes, each with one configuration")],
         figures={
             "slices": (
                 "Where it is proved",
@@ -124,7 +126,6 @@ def story(found: Proof | TolerantProof) -> Story:
         },
         method=[
             ("Proof", "a bisection tree of boxes and a configuration for each; a box is proved by one inequality, by Brouwer"),
-            ("Checked by", "holdfast certificate check FILE, or verifier.py alone, in ball arithmetic"),
             (
                 "Not said",
                 "collisions, torques, speed, the way there; links are rigid, the geometry is the file's, locks do not slip",
@@ -132,8 +133,3 @@ def story(found: Proof | TolerantProof) -> Story:
         ],
         arm=arm,
     )
-
-
-def _kept(text: str) -> str:
-    """With a space that no line ends at."""
-    return text.replace(" %", "\N{NO-BREAK SPACE}%")

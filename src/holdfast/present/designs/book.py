@@ -51,7 +51,7 @@ def write(book: Book, path: Path, command: str = "") -> Path:
         f"{len(book)} records: the best that anybody has found. Of {open_} of {len(bare)} null spaces the value is below the "
         "proven bound: those are open.",
         sections,
-        subtitle="What is left of an arm after the worst locks, or how far its joints turn on one self-motion",
+        subtitle="What is left of an arm or its workspace after the worst locks, or how far its joints turn on one self-motion",
         method=[
             Text("Each record is one file, checked by code that shares nothing with what found it: holdfast records check.")
         ],
@@ -74,13 +74,13 @@ def _cells(r: Record) -> list[Cell]:
     bar += Markup('<rect width="{}" height="10" fill="{}"/></svg> {}').format(f"{60 / (1 + max(r.gap, 0)):.1f}", BLUE, gap)
     kinds = ["yaml", *(["urdf"] if r.arm is not None else [])]
     files = Markup(" ").join(Markup('<a href="{}.{}" download>{}</a>').format(r.id, kind, kind.upper()) for kind in kinds)
-    return [r.id, f"{c.joints}", f"{c.failures}", f"{r.data.value:.8g}", f"{bound.value:.8g}", bound.by, bar, files]
+    return [r.id, f"{c.joints}", f"{c.failures}", r.amount, f"{bound.value:.8g}", bound.by, bar, files]
 
 
 def figure(records: Sequence[Record]) -> Figure:
     """Arms as sticks, each seen so that it looks widest."""
     rows = -(-len(records) // _COLUMNS)
-    drawn = Figure(figsize=(10, 2.3 * rows), layout="constrained")
+    drawn = Figure(figsize=(10, 2.5 * rows), layout="constrained")
     every = drawn.subplots(rows, _COLUMNS, squeeze=False).ravel()
     for axes in every:
         axes.set_axis_off()
@@ -104,6 +104,8 @@ def _sticks(axes: Axes, r: Record) -> None:
         axes.plot(*np.stack([place - half, place + half]).T, color=ORANGE, linewidth=1.6)
         axes.plot(*place, "o", color=ORANGE, markersize=3)
     axes.plot(*places[-1], "o", color=INK, markersize=5)
+    center = (places.max(axis=0) + places.min(axis=0)) / 2
+    for side, at in zip((axes.set_xlim, axes.set_ylim), center, strict=True):
+        side(at - 0.6 * width, at + 0.6 * width)
     axes.set_aspect("equal")
-    axes.margins(0.12)
-    axes.set_title(drawing.plain(f"{r.id}, {width:.2g} m wide"), fontsize=8)
+    axes.set_title(f"{drawing.plain(r.id)}\n{width:.2g} m wide", fontsize=7)

@@ -24,7 +24,7 @@ def row(r: Record) -> list[str]:
     """A record in a line of a table."""
     c, bound = r.data.kind, r.data.proven_bound
     task, gap = c.task or f"any of {c.rows} rows", "0" if r.gap < 1e-8 else percent(r.gap)
-    return [r.id, task, f"{c.joints}", f"{c.failures}", f"{r.data.value:.7g}", f"{bound.value:.7g}", bound.by, gap]
+    return [r.id, task, f"{c.joints}", f"{c.failures}", r.amount, f"{bound.value:.7g}", bound.by, gap]
 
 
 def to_dict(found: Shown) -> dict[str, Any]:

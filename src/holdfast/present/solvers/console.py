@@ -103,7 +103,7 @@ def story(optima: Optima) -> Story:
     some, name = found.success, optima.objective.name
     values = [x[some] for x in (found.value_before, found.value)]
     before, after = (float(np.median(x)) if x.size else np.nan for x in values)
-    first = "the configuration given" if optima.initial is not None else "the first configuration found"
+    first = f"the {_first(optima)}"
     many = len(found.poses) > 1
     middle = "the median of " * many
     change = abs(after - before) / abs(before) if before else np.inf
@@ -115,6 +115,8 @@ def story(optima: Optima) -> Story:
         answer = f"No configuration better than {first} was found: {middle}{name} stays {number(before)}{unit}."
     elif np.isfinite(change) and change < _SAME:
         answer = f"{capitalised(first)} is the best that was found already: {middle}{name} is {number(after)}{unit}."
+    elif found.free:
+        answer = f"The best configuration found has a {name} of {number(after)}{unit}; {first} has {number(before)}{unit}."
     else:
         share = f", {percent(change)} {'more' if how == 'raises' else 'less'}" if np.isfinite(change) and change < _FOLD else ""
         answer = (
@@ -142,7 +144,7 @@ def story(optima: Optima) -> Story:
         ]
         tables.append(Rows(["joint that fails", "before", "best"], rows, capitalised(label.replace("-", " "))))
     return Story(
-        f"The best configuration of {optima.arm.name} before a failure",
+        f"The best {'of all configurations' if optima.free else 'configuration'} of {optima.arm.name} before a failure",
         answer,
         about=f"{capitalised(_wish(optima))}, task {optima.task.describe()}",
         facts=facts,
@@ -156,7 +158,8 @@ def story(optima: Optima) -> Story:
             ("Task", optima.task.describe()),
             (
                 "Starts",
-                f"{', '.join(map(str, sorted({*map(int, found.starts)})))} random ones for each pose, seed {optima.seed}",
+                f"{', '.join(map(str, sorted({*map(int, found.starts)})))} random ones{' for each pose' * (not optima.free)}, "
+                f"seed {optima.seed}",
             ),
             ("Clearance", "not looked at" if optima.clearance is None else shape_text(optima.clearance, optima.margin)),
         ],
@@ -169,10 +172,11 @@ def _beside(found: Optima, first: str) -> list[tuple[str, list[Any]]]:
     from holdfast.report.page import Picture
 
     k = int(found.success.argmax())
-    words = f"The arm at its best configuration and, see-through, at {first}; the tool is in the same place."
+    stays = "" if found.free else "; the tool is in the same place"
+    words = f"The arm at its best configuration and, see-through, at {first}{stays}."
     both = np.array([found.q[k], found.before[k]])
     cell = None if found.clearance is None else found.clearance.cell
-    shown = scene(found.arm, both, labels=("best", "before"), targets=[found.poses[k]], cell=cell)
+    shown = scene(found.arm, both, labels=("best", "before"), targets=[] if found.free else [found.poses[k]], cell=cell)
     return [
         ("Before and best", [Picture(shown.html("both", words), words + (f" Pose {k + 1}." if len(found.poses) > 1 else ""))])
     ]
@@ -197,7 +201,7 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
     found = optima.rows
     value_before = found.value_before
     unit = "" if optima.objective.unit in ("1", "mixed") else f" {escape(optima.objective.unit)}"
-    first = "first configuration found" if optima.initial is None else "configuration given"
+    first = _first(optima)
     head = f"{asked or _wish(optima)}, arm {optima.arm.title}, task {optima.task.describe()}"
     out.print(escape(head), soft_wrap=True)
     if len(found.poses) == 1:
@@ -240,10 +244,9 @@ def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
     print_outside(found.arm, before, out, " before")
     agreeing = found.agreeing[0]
     advice = "" if agreeing >= MANY else "; there are many optima: more --starts may find a better one"
-    out.print(
-        f"{found.starts[0]} starts met the pose; of those followed to the end {agreeing:.0%} agree{advice}", soft_wrap=True
-    )
-    if found.status[0] == Status.OK:
+    met = "were climbed from" if found.free else "met the pose"
+    out.print(f"{found.starts[0]} starts {met}; of those followed to the end {agreeing:.0%} agree{advice}", soft_wrap=True)
+    if found.status[0] == Status.OK and not found.free:
         out.print(f"pose met to {found.position_error[0]:.1e} m and {found.rotation_error[0]:.1e} rad", soft_wrap=True)
 
 
@@ -283,6 +286,13 @@ def to_csv(optima: Optima, path: Path) -> Path:
 
 def _name(status: Any) -> str:
     return Status(int(status)).name.lower()
+
+
+def _first(optima: Optima) -> str:
+    """What the best configurations are compared with."""
+    if optima.initial is not None:
+        return "configuration given"
+    return "best random configuration" if optima.free else "first configuration found"
 
 
 def _wish(optima: Optima) -> str:

@@ -1,72 +1,3 @@
-"""The monitor as C99: what of it is the same for every arm. NAME, COUNT and the constants are filled in by `export`."""
-
-HEADER = """\
-#ifndef GUARD_H
-#define GUARD_H
-
-#define GUARD_JOINTS COUNT
-#define GUARD_RATE RATE_HZ
-/* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
-#define GUARD_HOLDFAST "VERSION"
-#define GUARD_ARM "FINGERPRINT"
-#define GUARD_PARAMETERS "DIGEST"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-typedef enum {
-    GUARD_UNKNOWN, GUARD_LOCKED, GUARD_STANDSTILL, GUARD_LIMP, GUARD_WEAK, GUARD_FRICTION, GUARD_SLUGGISH, GUARD_SENSOR,
-    GUARD_CONTACT
-} NAME_kind;
-
-/* What is known: without an alarm the rest means nothing. joint: from 0, -1 if none is to blame or it is not known yet.
-   loss: fraction of its torque that the motor lost, -1 where that is not the question. */
-typedef struct {
-    int alarm;
-    double time;
-    int joint;
-    NAME_kind kind;
-    double loss;
-} NAME_verdict;
-
-/* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
-typedef struct {
-    double v[COUNT], r[COUNT];
-    double over_z[COUNT], over_y[COUNT], over_w;
-    long cycle, fast, seen, seen_at, count, poses, some;
-    int begun, referred, alarmed, torques, tool, suspect, push, joint, told;
-    double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
-    double size[COUNT], residual[COUNT], left[COUNT], gap;
-    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
-    NAME_verdict verdict;
-} NAME_state;
-
-extern const char *const NAME_joints[COUNT];
-
-/* Before the first cycle, and to forget everything. */
-void NAME_init(NAME_state *state);
-
-/* Forget the alarm and what led to it, while the arm goes on. */
-void NAME_rearm(NAME_state *state);
-
-/* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
-   q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
-   torque: commanded torques, N m and N, or NULL. pose: the tool's measured pose, taken now, (4, 4) row by row, or NULL. */
-void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
-               const double *pose, NAME_verdict *verdict);
-
-/* A word for each kind. */
-const char *NAME_kind_name(NAME_kind kind);
-
-#ifdef __cplusplus
-}
-#endif
-
-#endif
-"""
-
-SOURCE = """\
 enum { N = COUNT, SMOOTHED = 5 };
 static const double DT = CONST_DT;
 
@@ -106,39 +37,42 @@ static void rotation_vector(const double r[9], double out[3]) {
 }
 
 /* Rates, and the residual of the momentum. */
-static void observe(NAME_state *s, const double *q, const double *torque) {
+static void observe(NAME_state *s, const double *q, const double *torque, double h) {
 #if WITH_TORQUES
-    double p[N], energy[N], known;
+    double p[N], energy[N], known, keep, gain;
 #endif
     int k, first = !s->begun;
     for (k = 0; k < N; ++k) {
         if (first) {
             if (torque) s->torque[k] = s->low[k] = torque[k];
         } else {
-            s->v[k] += CONST_BAND * ((q[k] - s->q[k]) / DT - s->v[k]);
+            s->v[k] += CONST_BAND * ((q[k] - s->q[k]) / h - s->v[k]);
         }
         s->q[k] = q[k];
     }
     s->begun = 1;
+    s->at = s->cycle;
 #if WITH_TORQUES
     if (!torque) return;
     momentum(q, s->v, p, energy, s->gravity);
+    keep = larger(0, 1 - CONST_GAIN * h);
+    gain = smaller(CONST_GAIN, 1 / h);
     for (k = 0; k < N; ++k) {
         s->torque[k] += CONST_BAND * (torque[k] - s->torque[k]);
         s->low[k] += CONST_LOW * (s->torque[k] - s->low[k]);
         if (!first) {
             known = s->torque[k] + energy[k] - s->gravity[k] - (coulomb[k] * tanh(s->v[k] / CONST_SLIP) + viscous[k] * s->v[k]);
-            s->r[k] = CONST_KEEP * s->r[k] + CONST_GAIN * (p[k] - s->p[k] - DT * known);
+            s->r[k] = keep * s->r[k] + gain * (p[k] - s->p[k] - h * known);
         }
         s->p[k] = p[k];
     }
 #endif
 }
 
-/* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
-static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
-    double there[12], turn[9], mean[6] = {0}, w;
-    int i, j, k, some;
+/* How far the tool's measured pose is from where the joints have it, and the Jacobian column by column. */
+static void off_tool(const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
+    double there[12], turn[9];
+    int i, j, k;
     tool(q, there, jacobian);
     for (i = 0; i < 3; ++i) {
         residual[i] = pose[4 * i + 3] - there[9 + i];
@@ -146,6 +80,13 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
             for (turn[3 * i + j] = 0, k = 0; k < 3; ++k) turn[3 * i + j] += pose[4 * i + k] * there[3 * j + k];
     }
     rotation_vector(turn, residual + 3);
+}
+
+/* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
+static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
+    double mean[6] = {0}, w;
+    int i, k, some;
+    off_tool(q, pose, residual, jacobian);
     for (i = 0; i < 6; ++i) s->last[s->seen % SMOOTHED][i] = residual[i];
     some = s->seen + 1 < SMOOTHED ? (int)s->seen + 1 : SMOOTHED;
     for (k = 0; k < some; ++k)
@@ -317,17 +258,20 @@ void NAME_init(NAME_state *s) {
     NAME_rearm(s);
 }
 
+void NAME_skip(NAME_state *s, long cycles) { s->cycle += cycles; }
+
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
                NAME_verdict *verdict) {
-    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0;
+    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0, h;
     int k, gated, look_now = 0;
     if (!WITH_TORQUES) torque = 0;
     s->cycle += 1;
     *verdict = s->verdict;
     if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) return;
-    observe(s, q, torque);
+    h = (double)(s->cycle - s->at) * DT; /* longer after cycles without a sample */
+    observe(s, q, torque, h);
     for (k = 0; k < N && s->referred; ++k)
-        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * DT) s->fast = s->cycle;
+        if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * h) s->fast = s->cycle;
     gated = !torque && s->cycle - s->fast < CONST_CALM;
     for (k = 0; k < N; ++k) {
         s->reference[k] = reference[k];
@@ -359,38 +303,22 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
     *verdict = s->verdict;
 }
 
+double NAME_joint_by_tool(const double q[COUNT], const double pose[16], int joint) {
+    double at[N], residual[6], jacobian[6 * N], along, size;
+    int i, k;
+    for (i = 0; i < N; ++i) at[i] = q[i];
+    for (k = 0; k < 3; ++k) {
+        off_tool(at, pose, residual, jacobian);
+        for (along = size = 0, i = 0; i < 6; ++i) {
+            along += residual[i] * jacobian[6 * joint + i];
+            size += jacobian[6 * joint + i] * jacobian[6 * joint + i];
+        }
+        at[joint] += along / larger(size, 1e-12);
+    }
+    return at[joint];
+}
+
 const char *NAME_kind_name(NAME_kind kind) {
     static const char *const names[] = {KIND_WORDS};
     return names[kind];
 }
-"""
-
-EXAMPLE = """\
-/*
- * Reads a record from standard input, one cycle a line (COUNT measured joint values, COUNT references, COUNT torques), and says
- * what the monitor says. In a controller NAME_step stands in the cycle.
- * cc -std=c99 NAME.c NAME_example.c -lm -o NAME_example
- */
-#include "NAME.h"
-
-#include <stdio.h>
-
-int main(void) {
-    static NAME_state state; /* one for each arm */
-    double cycle[3 * COUNT];
-    NAME_verdict verdict = {0, 0, -1, GUARD_UNKNOWN, -1};
-    int k, known = 0;
-    NAME_init(&state);
-    for (;;) {
-        for (k = 0; k < 3 * COUNT && scanf("%lf", cycle + k) == 1;) ++k;
-        if (k < 3 * COUNT) break;
-        NAME_step(&state, cycle, cycle + COUNT, cycle + 2 * COUNT, 0, &verdict);
-        if (verdict.alarm && !known) printf("alarm at %.3f s\\n", verdict.time);
-        known = verdict.alarm;
-    }
-    if (!known) puts("no fault seen, which does not prove that there is none");
-    else if (verdict.joint < 0) printf("no joint is known: %s\\n", NAME_kind_name(verdict.kind));
-    else printf("%s: %s\\n", NAME_joints[verdict.joint], NAME_kind_name(verdict.kind));
-    return known ? 3 : 0;
-}
-"""

@@ -7,6 +7,7 @@ import types
 
 import numpy as np
 
+from holdfast.kernels.gpu import arrays
 from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows
 from holdfast.kernels.llvm import machine_code
 from holdfast.kernels.llvm.arithmetic import Machine
@@ -22,6 +23,7 @@ class FakeDriver:
 
     Attributes:
         calls: Names and arguments.
+        launched: Names of the programs that were launched.
         fails: Name of a function -> its status.
         live: Bytes of each address that was given out and not taken back.
     """
@@ -29,6 +31,7 @@ class FakeDriver:
     def __init__(self, capability=90, devices=2):
         self.capability, self.devices = capability, devices
         self.calls, self.fails, self.live, self.loaded, self.current, self.codes = [], {}, {}, {}, [], {}
+        self.launched = set()
         self.CUdevice_attribute = types.SimpleNamespace(
             CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR="major", CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR="minor"
         )
@@ -69,6 +72,7 @@ class FakeDriver:
     def launch(self, function, *rest):
         assert self.current, "no context is current"
         program, state = function
+        self.launched.add(program.name)
         values, kinds = rest[-2]
         name = program.digest, state
         if name not in self.codes:
@@ -77,7 +81,9 @@ class FakeDriver:
             if state is not None:
                 text = DeviceLoop(program, state, machine, on_device=False).text()
             self.codes[name] = Code(object_code(text, 0))
-        ctypes.CFUNCTYPE(None, *kinds)(self.codes[name].address)(*values)
+        row = ctypes.CFUNCTYPE(None, *kinds, ctypes.c_int64)(self.codes[name].address)
+        for thread in range(rest[0] * rest[3]):
+            row(*values, thread)
 
     def __getattr__(self, name):
         known = {
@@ -114,6 +120,7 @@ class Array:
 
     def __init__(self, values, device=0):
         self.values, self.device, self.streams = np.asarray(values, dtype=float), device, []
+        self.shape = self.values.shape
 
     def __dlpack_device__(self):
         return 2, self.device
@@ -121,3 +128,28 @@ class Array:
     def __dlpack__(self, *, stream=None):
         self.streams.append(stream)
         return self.values.__dlpack__()
+
+
+class Reader:
+    """Takes a capsule as a framework on the processor would, and says so."""
+
+    def __init__(self, array, stream=1):
+        self.array, self.stream = array, stream
+
+    def __dlpack_device__(self):
+        return 1, 0
+
+    def __dlpack__(self, **_):
+        capsule = self.array.__dlpack__(stream=self.stream)
+        address = arrays._pointer(capsule, b"dltensor")
+        kind = ctypes.c_int32.from_address(address + 8)
+        assert kind.value == 2
+        kind.value = 1
+        return capsule
+
+
+def read(array, stream=1):
+    """A copy of what is on the device, after a look that it was shared."""
+    view = np.from_dlpack(Reader(array, stream))
+    assert view.ctypes.data == array.pointer  # shared
+    return view.copy()

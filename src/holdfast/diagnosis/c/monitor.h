@@ -1,0 +1,70 @@
+#ifndef GUARD_H
+#define GUARD_H
+
+#define GUARD_JOINTS COUNT
+#define GUARD_RATE RATE_HZ
+/* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
+#define GUARD_HOLDFAST "VERSION"
+#define GUARD_ARM "FINGERPRINT"
+#define GUARD_PARAMETERS "DIGEST"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+    GUARD_UNKNOWN, GUARD_LOCKED, GUARD_STANDSTILL, GUARD_LIMP, GUARD_WEAK, GUARD_FRICTION, GUARD_SLUGGISH, GUARD_SENSOR,
+    GUARD_CONTACT
+} NAME_kind;
+
+/* What is known: without an alarm the rest means nothing. joint: from 0, -1 if none is to blame or it is not known yet.
+   loss: fraction of its torque that the motor lost, -1 where that is not the question. */
+typedef struct {
+    int alarm;
+    double time;
+    int joint;
+    NAME_kind kind;
+    double loss;
+} NAME_verdict;
+
+/* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
+typedef struct {
+    double v[COUNT], r[COUNT];
+    double over_z[COUNT], over_y[COUNT], over_w;
+    long cycle, at, fast, seen, seen_at, count, poses, some;
+    int begun, referred, alarmed, torques, tool, suspect, push, joint, told;
+    double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
+    double size[COUNT], residual[COUNT], left[COUNT], gap;
+    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
+    NAME_verdict verdict;
+} NAME_state;
+
+extern const char *const NAME_joints[COUNT];
+
+/* Before the first cycle, and to forget everything. */
+void NAME_init(NAME_state *state);
+
+/* Forget the alarm and what led to it, while the arm goes on. */
+void NAME_rearm(NAME_state *state);
+
+/* So many cycles went by without a sample: none is missed, and time runs on. */
+void NAME_skip(NAME_state *state, long cycles);
+
+/* Where a joint is by the tool's measured pose, (4, 4) row by row, if all others are where their sensors say; rad or m.
+   Metres and radians weigh alike. */
+double NAME_joint_by_tool(const double q[COUNT], const double pose[16], int joint);
+
+/* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
+   q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
+   torque: commanded torques, N m and N, or NULL. pose: the tool's measured pose, taken now, (4, 4) row by row, or NULL. */
+void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
+               const double *pose, NAME_verdict *verdict);
+
+/* A word for each kind. */
+const char *NAME_kind_name(NAME_kind kind);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,11 @@
+int NAME_law(const double q[COUNT], const double v[TASK_ROWS], const double mask[COUNT], double rates[COUNT]) {
+    int k, fine = 1;
+    for (k = 0; k < COUNT; ++k) fine = fine && q[k] - q[k] == 0;
+    for (k = 0; k < TASK_ROWS; ++k) fine = fine && v[k] - v[k] == 0;
+    if (fine) {
+        masked(q, v, mask, rates);
+        for (k = 0; k < COUNT; ++k) fine = fine && rates[k] - rates[k] == 0;
+    }
+    for (k = 0; k < COUNT && !fine; ++k) rates[k] = 0;
+    return fine ? 0 : 1;
+}
