@@ -20,8 +20,8 @@ from papers.faults.policy.teacher import Teacher
 
 HERE = Path(__file__).parent
 WIDTH, BATCH = 192, 256
-ROUNDS, EPISODES = 40, 26  # rounds, and episodes in each
-FITS, LAST = 1500, 30_000  # steps of Adam after each round, and after the last
+ROUNDS, EPISODES = 24, 26  # rounds, and episodes in each
+FITS, LAST = 1500, 20_000  # steps of Adam after each round, and after the last
 LESS = 0.7  # of the steps at which the teacher acts, from one round to the next
 NOISE = 0.2  # N m, on what the policy does
 CHECK = 10**6  # seeds of the episodes that are watched meanwhile begin here
