@@ -16,7 +16,8 @@ SIZES = {  # and what they are when nothing else is asked for
     "robots": (20, "robots that bounds are calibrated on"),
     "plants": (20, "other robots that are watched in healthy motion"),
     "hours": (0.1, "of healthy motion that is watched; 0: none"),
-    "count": (20, "faults of each kind"),
+    "count": (20, "faults of each kind of the body"),
+    "sensors": (20, "of each kind of sensors, and clutches"),
     "pushes": (21, "pushes, the links in turn"),
     "blind": (4, "files of logs for the command line; 0: none"),
     "probes": (5, "configurations of self-motions; 0: none"),
@@ -47,7 +48,7 @@ def main() -> None:
         f"brackets: exact 95 % intervals (Clopper and Pearson). Seeds: calibration from 0, faults {records.DRAWS} (draws) and "
         f"from {records.SEEDS} (robots), pushes from {pushes.SEEDS}, healthy motion from {healthy.SEEDS}.",
         "",
-        *records.table(store, bounds, chosen.robots, chosen.count),
+        *records.table(store, bounds, chosen.robots, count=chosen.count, sensors=chosen.sensors),
         *pushes.table(store, bounds, chosen.robots, chosen.pushes),
     ]
     if chosen.hours:

@@ -8,6 +8,7 @@ import sys
 import tempfile
 from collections import Counter
 from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -75,8 +76,8 @@ def judged(arm: hf.Arm, bounds: str, number: int) -> dict[str, Any]:
 
 def table(store: Store, count: int) -> list[str]:
     """How they came out."""
-    bounds = store.get("blind bounds", lambda: calibrated(store.arm))
-    found = [store.get(f"blind {k}", lambda k=k: judged(store.arm, bounds, k)) for k in range(count)]
+    bounds = store.get("blind bounds", partial(calibrated, store.arm))
+    found = [store.get(f"blind {k}", partial(judged, store.arm, bounds, k)) for k in range(count)]
     silent = [one for one in found if not one["alarm"]]
     right = [one for one in found if one["alarm"] and not one["early"] and one["said"] == one["joint"]]
     wrong = [one for one in found if one not in silent and one not in right]

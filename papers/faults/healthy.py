@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ def section(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, plants: i
     """What came of it: the first alarm of each motion is counted."""
     records = max(1, round(3600 * hours / plants / RECORD))
     found = [
-        store.get(f"healthy {robots} {records} {k}", lambda k=k: watched(store.arm, bounds, k, records)) for k in range(plants)
+        store.get(f"healthy {robots} {records} {k}", partial(watched, store.arm, bounds, k, records)) for k in range(plants)
     ]
     false, hours = sum(len(one["alarms"]) for one in found), plants * records * RECORD / 3600
     some = sum(bool(one["alarms"]) for one in found)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 import holdfast as hf
@@ -63,7 +65,7 @@ def table(store: Store, count: int) -> list[str]:
     rows = []
     for k, (name, task, zero, fraction) in enumerate(CASES):
         size = max(2, round(fraction * count))
-        rows.append(store.get(f"probe {k} {size}", lambda case=(name, task, zero, size, k): row(*case)))
+        rows.append(store.get(f"probe {k} {size}", partial(row, name, task, zero, size, k)))
     return [
         "## Self-motions that find the locked joint",
         "",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, seeds: range) -> list[dict[
 
 def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) -> list[str]:
     """A line for each link, and one for all."""
-    found = store.some(f"push {robots}", count, lambda seeds: judged(store.arm, bounds, seeds))
+    found = store.some(f"push {robots}", count, partial(judged, store.arm, bounds))
     lines = [
         "## Pushes on every link",
         "",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ KINDS = {
     "sensor_freeze": hf.faults.sensor_freeze(onset=ONSET),
     "slipping_clutch": hf.faults.slipping_clutch(onset=ONSET),
 }
+POSED = ("sensor_bias", "sensor_drift", "sensor_freeze", "slipping_clutch")  # the tool's pose tells them
 HEAD = [
     "| fault | noticed | joint right, of those | too early | delay, ms, median / 90 % | reference to tool, mm | named |",
     "|---|---|---|---|---|---|---|",
@@ -46,7 +48,7 @@ def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, kind: str, numbers: range) 
             entry |= {"delay": verdict.time - event.onset, "right": verdict.joint == event.joint, "kind": verdict.kind}
             entry["distance"] = 1e3 * float(np.linalg.norm(both[0] - both[1]))
             if kind == "weak" and np.isfinite(verdict.loss):
-                entry |= {"off": verdict.loss - (1 - event.parameters["gain"]), "uncertainty": verdict.uncertainty}
+                entry |= {"off": verdict.loss - (1 - float(event.parameters["gain"])), "uncertainty": verdict.uncertainty}
         found.append(entry)
     return found
 
@@ -59,7 +61,7 @@ def row(kind: str, found: Sequence[Mapping[str, Any]]) -> str:
     if seen:
         columns = ([1e3 * one["delay"] for one in seen], [one["distance"] for one in seen])
         shown = [f"{np.median(x):.3g} / {np.quantile(x, 0.9):.3g}" for x in columns]
-    if kind.startswith("sensor") or kind == "slipping_clutch":
+    if kind in POSED:
         shown[1] = "-"
     told = ", ".join(f"{name} {times}" for name, times in Counter(one["kind"] for one in seen).most_common())
     cells = [kind, of(len(seen), len(found)), of(sum(one["right"] for one in seen), len(seen)), str(early), *shown, told or "-"]
@@ -87,11 +89,12 @@ def losses(found: Sequence[Mapping[str, Any]]) -> list[str]:
     return [*lines, ""]
 
 
-def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) -> list[str]:
+def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, count: int, sensors: int) -> list[str]:
     """All kinds."""
-    lines, weak = [*HEAD], []
+    lines, weak = [*HEAD], list[Any]()
     for kind in KINDS:
-        found = store.some(f"{kind} {robots}", count, lambda part, kind=kind: judged(store.arm, bounds, kind, part))
+        size = sensors if kind in POSED else count
+        found = store.some(f"{kind} {robots}", size, partial(judged, store.arm, bounds, kind))
         weak = found if kind == "weak" else weak
         lines.append(row(kind, found))
     return [*lines, "", *losses(weak)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -48,7 +49,7 @@ class Store:
     def some(self, key: str, count: int, make: Callable[[range], list[Any]]) -> list[Any]:
         """So many things, of which ``make`` finds the ones with the numbers that it is given."""
         parts = (range(k, min(k + PART, count)) for k in range(0, count, PART))
-        return [x for part in parts for x in self.get(f"{key} {part[0]}-{part[-1]}", lambda part=part: make(part))]
+        return [x for part in parts for x in self.get(f"{key} {part[0]}-{part[-1]}", partial(make, part))]
 
     def bounds(self, robots: int) -> hf.diagnosis.Bounds:
         """Over many robots of one kind."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
@@ -101,7 +101,7 @@ def rehearse(
     rng = np.random.default_rng(seed)
     reference = _swinging(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
     off = {"mismatch": mismatch, "coulomb": coulomb, "viscous": viscous}
-    robot = _Robot(arm, reference, rng, seed if body is None else body, faults=faults, pushes=pushes, **off)
+    robot = _Robot(arm, reference, rng, seed if body is None else body, faults, pushes, off)
     return _records(arm, [robot], pose)[0]
 
 
@@ -152,9 +152,9 @@ def rehearse_many(
         robots = []
         for k in range(start, min(start + _AT_ONCE, count)):
             rng = np.random.default_rng(seeds[k])
-            happens = {"faults": faults[k] if faults else (), "pushes": pushes[k] if pushes else ()}
+            events, forces = faults[k] if faults else (), pushes[k] if pushes else ()
             reference = _swinging(arm, duration, speed, rng)
-            robots.append(_Robot(arm, reference, rng, (bodies or seeds)[k], **happens, **off))
+            robots.append(_Robot(arm, reference, rng, (bodies or seeds)[k], events, forces, off))
         logs += _records(arm, robots, pose)
     return tuple(logs)
 
@@ -168,10 +168,9 @@ class _Robot:
         reference: Array,
         rng: np.random.Generator,
         body: int,
-        *,
         faults: Sequence[FaultEvent],
         pushes: Sequence[Push],
-        **off: float,
+        off: Mapping[str, float],
     ) -> None:
         self._mujoco, self.reference, self.rng, self.happens = import_mujoco(), reference, rng, bool(faults or pushes)
         self.model = with_motors(arm, step=_STEP, rotor=_ROTOR)
