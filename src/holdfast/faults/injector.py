@@ -162,7 +162,7 @@ class FaultInjector:
         self._apply()
 
     def release(self, joint: str) -> None:
-        """Let go of a joint that was braked."""
+        """Release a joint that was braked."""
         j = self.joints.index(joint)
         self._brakes = [one for one in self._brakes if one.joint != j]
         self._apply()

@@ -49,7 +49,7 @@ class Brakes(Protocol):
         ...
 
     def release(self, joint: str) -> None:
-        """Let it go again."""
+        """Release it again."""
         ...
 
 
