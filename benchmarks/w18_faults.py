@@ -70,17 +70,67 @@ def wrapper(chosen: argparse.Namespace) -> str:
     return harness.table("The wrapper, processor time", ["what", "median", "range", "note"], rows)
 
 
-def with_pinocchio(arm):
-    """A momentum observer as one writes it with Pinocchio: a step of it."""
+def vectors(chosen: argparse.Namespace) -> str:
+    """Steps of many arms whose joints lock, beside a loop over them with NumPy and Pinocchio's kinematics."""
+    import pinocchio as pin
+
+    import holdfast as hf
+
+    arm, count, period, damping = hf.arms.load("panda"), 64 if chosen.quick else 1024, 0.02, 0.05
+    law = hf.control.damped(arm, damping, task="position", gain=1.5)
+    start = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.8, 0.7])
+    pose = arm.forward_kinematics(start + 0.2)
+    faults = hf.faults.Faults([hf.faults.locked(onset=(0.0, 0.2))], seed=18)
+    options = {"period": period, "start": start, "tolerance": (0.0, 0.0), "horizon": 1e6}
+    env = hf.faults.FaultVectorEnv(law, count, faults, goals=lambda generator, n: np.tile(pose, (n, 1, 1)), **options)
+    still = np.zeros(env.action_space.shape)
+    model, tool = oracles().to_pinocchio(arm)
+    data, most = model.createData(), np.array([joint.velocity for joint in arm.joints])
+    events = [faults.draw(arm, episode=k, horizon=1e6)[0] for k in range(count)]
+    locks = [(arm.joint_index(event.joint), event.onset) for event in events]
+
+    def looped(q, time):
+        for row, (joint, onset) in zip(q, locks, strict=True):
+            pin.computeJointJacobians(model, data, row)
+            pin.updateFramePlacement(model, data, tool)
+            jacobian = pin.getFrameJacobian(model, data, tool, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)[:3]
+            wanted = 1.5 * (pose[:3, 3] - data.oMf[tool].translation)
+            rates = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping**2 * np.eye(3), wanted)
+            rates = np.clip(rates, -most, most)
+            if onset <= time + 1e-9:
+                rates[joint] = 0.0
+            row += period * rates
+        return q
+
+    env.reset(seed=0)
+    q = np.tile(start, (count, 1))
+    for k in range(15):
+        env.step(still)
+        looped(q, k * period)
+    far = float(np.abs(env.q - q).max())
+    both = [(per_call(lambda: env.step(still), 20), per_call(lambda: looped(q, 1.0), 2)) for _ in range(chosen.rounds)]
+    ratio = statistics.median(theirs / ours for ours, theirs in both)
+    each = [f"{statistics.median(x) / count:.3g}" for x in zip(*both, strict=True)]
+    row = [f"{count} Pandas, locks", *each, f"{ratio:.3g}", f"joints apart after 15 steps by at most {far:.1g} rad"]
+    head = ["what", "holdfast", "loop", "holdfast is faster by", "note"]
+    return harness.table("FaultVectorEnv, processor time of a step of an arm, us", head, [row])
+
+
+def oracles():
+    """Of the tests, which make a model of Pinocchio."""
+    import importlib
     import sys
     from pathlib import Path
 
     sys.path.append(str(Path(__file__).parents[1] / "tests"))
+    return importlib.import_module("oracles")
+
+
+def with_pinocchio(arm):
+    """A momentum observer as one writes it with Pinocchio: a step of it."""
     import pinocchio as pin
 
-    import oracles
-
-    model, _ = oracles.to_pinocchio(arm)
+    model, _ = oracles().to_pinocchio(arm)
     data, gain, dt = model.createData(), 40.0, 1 / RATE
     state = {"s": np.zeros(arm.n), "r": np.zeros(arm.n)}
 
@@ -185,8 +235,45 @@ int main(void) {
 """
 
 
+CONTROLLER_TIMER = """
+#include "law_controller.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <vector>
+using namespace law_controller;
+int main() {
+    const int cycles = %d;
+    std::vector<double> took(cycles);
+    Joints q{}, effort{}, command{};
+    std::array<const double *, joints> position{}, torque{};
+    std::array<double *, joints> velocity{};
+    for (int i = 0; i < joints; ++i) position[i] = &q[i], torque[i] = &effort[i], velocity[i] = &command[i];
+    q[3] = -1.5, q[5] = 1.5;
+    Options options;
+    options.reacts = false;
+    TolerantController brain(options);
+    brain.on_configure();
+    brain.assign(position, &torque, velocity);
+    if (brain.on_activate() != Return::ok) return 1;
+    for (int k = 0; k < cycles; ++k) {
+        for (int i = 0; i < joints; ++i) q[i] += command[i] / rate, effort[i] = 5 * std::cos(1e-3 * k);
+        for (int i = 0; i < 6; ++i) brain.references()[i] = 0.05 * std::sin(2e-3 * k + i);
+        timespec from, to;
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+        brain.update_and_write_commands(k / rate, 1 / rate);
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
+        took[k] = 1e6 * (double)(to.tv_sec - from.tv_sec) + 1e-3 * (double)(to.tv_nsec - from.tv_nsec);
+    }
+    std::sort(took.begin(), took.end());
+    std::printf("%%g %%g %%g\\n", took[cycles / 2], took[(int)(0.99 * cycles)], took[(int)(0.999 * cycles)]);
+}
+"""
+
+
 def in_c(chosen: argparse.Namespace) -> str:
-    """Law and monitor in C, one control cycle."""
+    """Law and monitor in C, and the controller in C++: one control cycle, with what two looks at the clock take."""
     import shutil
     import subprocess
     import tempfile
@@ -194,9 +281,8 @@ def in_c(chosen: argparse.Namespace) -> str:
 
     import holdfast as hf
 
-    compiler = shutil.which("cc")
-    if compiler is None:
-        return "No C compiler here.\n"
+    if shutil.which("cc") is None or shutil.which("c++") is None:
+        return "No C and C++ compilers here.\n"
     arm, cycles = hf.arms.load("panda"), 10_000 if chosen.quick else 200_000
     t = np.arange(2000) / RATE
     q = 0.3 * np.sin(np.outer(t, np.linspace(0.5, 1.5, 7)))
@@ -209,16 +295,26 @@ def in_c(chosen: argparse.Namespace) -> str:
         with tempfile.TemporaryDirectory() as folder:
             header = law.export_c(folder, "law").header.read_text(encoding="utf-8")
             hf.diagnosis.export_c(arm, bounds, folder, name="law_monitor")
+            hf.reaction.export_controller(law, bounds, folder, name="law_controller")
             nulls = ", 0" * header[header.index("int law(") :].split(";")[0].count("double *")
             (Path(folder) / "timer.c").write_text(TIMER % (cycles, nulls), encoding="utf-8")
-            command = [compiler, "-std=c99", "-O2", "timer.c", "law.c", "law_monitor.c", "-lm", "-o", "timer"]
-            subprocess.run(command, cwd=folder, check=True)
-            told = [
-                subprocess.run([f"{folder}/timer"], capture_output=True, text=True, check=True).stdout.split()
-                for _ in range(chosen.rounds)
-            ]
-        middle = np.median(np.array(told, dtype=float), axis=0)
-        rows.append([f"law {label} and monitor", *(f"{x:.3g}" for x in middle), "bars: 5 and 50"])
+            (Path(folder) / "timer.cpp").write_text(CONTROLLER_TIMER % cycles, encoding="utf-8")
+            parts = ("law.c", "law_monitor.c", "law_controller_law.c", "law_controller_monitor.c")
+            objects = ("law_controller_law.o", "law_controller_monitor.o")
+            for command in (
+                ["cc", "-std=c99", "-O2", "-c", *parts],
+                ["cc", "-std=c99", "-O2", "timer.c", "law.o", "law_monitor.o", "-lm", "-o", "timer_c"],
+                ["c++", "-std=c++17", "-O2", "timer.cpp", "law_controller.cpp", *objects, "-o", "timer_cpp"],
+            ):
+                subprocess.run(command, cwd=folder, check=True)
+            for what in ("c", "cpp"):
+                told = [
+                    subprocess.run([f"{folder}/timer_{what}"], capture_output=True, text=True, check=True).stdout.split()
+                    for _ in range(chosen.rounds)
+                ]
+                middle = np.median(np.array(told, dtype=float), axis=0)
+                name = f"law {label} and monitor, C" if what == "c" else f"TolerantController, {label}, C++"
+                rows.append([name, *(f"{x:.3g}" for x in middle), "bars: 5 and 50"])
     head = ["what", "median", "99 %", "99.9 %", "note"]
     return harness.table(f"A cycle in C, processor time of the thread, us, {cycles} cycles", head, rows)
 
@@ -228,6 +324,7 @@ def main() -> None:
     print("## W18: faults\n")
     print(harness.environment() + "\n")
     print(wrapper(chosen))
+    print(vectors(chosen))
     print(monitor(chosen))
     print(in_c(chosen))
 
