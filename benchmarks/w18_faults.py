@@ -235,8 +235,45 @@ int main(void) {
 """
 
 
+CONTROLLER_TIMER = """
+#include "law_controller.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <vector>
+using namespace law_controller;
+int main() {
+    const int cycles = %d;
+    std::vector<double> took(cycles);
+    Joints q{}, effort{}, command{};
+    std::array<const double *, joints> position{}, torque{};
+    std::array<double *, joints> velocity{};
+    for (int i = 0; i < joints; ++i) position[i] = &q[i], torque[i] = &effort[i], velocity[i] = &command[i];
+    q[3] = -1.5, q[5] = 1.5;
+    Options options;
+    options.reacts = false;
+    TolerantController brain(options);
+    brain.on_configure();
+    brain.assign(position, &torque, velocity);
+    if (brain.on_activate() != Return::ok) return 1;
+    for (int k = 0; k < cycles; ++k) {
+        for (int i = 0; i < joints; ++i) q[i] += command[i] / rate, effort[i] = 5 * std::cos(1e-3 * k);
+        for (int i = 0; i < 6; ++i) brain.references()[i] = 0.05 * std::sin(2e-3 * k + i);
+        timespec from, to;
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+        brain.update_and_write_commands(k / rate, 1 / rate);
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
+        took[k] = 1e6 * (double)(to.tv_sec - from.tv_sec) + 1e-3 * (double)(to.tv_nsec - from.tv_nsec);
+    }
+    std::sort(took.begin(), took.end());
+    std::printf("%%g %%g %%g\\n", took[cycles / 2], took[(int)(0.99 * cycles)], took[(int)(0.999 * cycles)]);
+}
+"""
+
+
 def in_c(chosen: argparse.Namespace) -> str:
-    """Law and monitor in C, one control cycle."""
+    """Law and monitor in C, and the controller in C++: one control cycle, with what two looks at the clock take."""
     import shutil
     import subprocess
     import tempfile
@@ -244,9 +281,8 @@ def in_c(chosen: argparse.Namespace) -> str:
 
     import holdfast as hf
 
-    compiler = shutil.which("cc")
-    if compiler is None:
-        return "No C compiler here.\n"
+    if shutil.which("cc") is None or shutil.which("c++") is None:
+        return "No C and C++ compilers here.\n"
     arm, cycles = hf.arms.load("panda"), 10_000 if chosen.quick else 200_000
     t = np.arange(2000) / RATE
     q = 0.3 * np.sin(np.outer(t, np.linspace(0.5, 1.5, 7)))
@@ -259,16 +295,26 @@ def in_c(chosen: argparse.Namespace) -> str:
         with tempfile.TemporaryDirectory() as folder:
             header = law.export_c(folder, "law").header.read_text(encoding="utf-8")
             hf.diagnosis.export_c(arm, bounds, folder, name="law_monitor")
+            hf.reaction.export_controller(law, bounds, folder, name="law_controller")
             nulls = ", 0" * header[header.index("int law(") :].split(";")[0].count("double *")
             (Path(folder) / "timer.c").write_text(TIMER % (cycles, nulls), encoding="utf-8")
-            command = [compiler, "-std=c99", "-O2", "timer.c", "law.c", "law_monitor.c", "-lm", "-o", "timer"]
-            subprocess.run(command, cwd=folder, check=True)
-            told = [
-                subprocess.run([f"{folder}/timer"], capture_output=True, text=True, check=True).stdout.split()
-                for _ in range(chosen.rounds)
-            ]
-        middle = np.median(np.array(told, dtype=float), axis=0)
-        rows.append([f"law {label} and monitor", *(f"{x:.3g}" for x in middle), "bars: 5 and 50"])
+            (Path(folder) / "timer.cpp").write_text(CONTROLLER_TIMER % cycles, encoding="utf-8")
+            parts = ("law.c", "law_monitor.c", "law_controller_law.c", "law_controller_monitor.c")
+            objects = ("law_controller_law.o", "law_controller_monitor.o")
+            for command in (
+                ["cc", "-std=c99", "-O2", "-c", *parts],
+                ["cc", "-std=c99", "-O2", "timer.c", "law.o", "law_monitor.o", "-lm", "-o", "timer_c"],
+                ["c++", "-std=c++17", "-O2", "timer.cpp", "law_controller.cpp", *objects, "-o", "timer_cpp"],
+            ):
+                subprocess.run(command, cwd=folder, check=True)
+            for what in ("c", "cpp"):
+                told = [
+                    subprocess.run([f"{folder}/timer_{what}"], capture_output=True, text=True, check=True).stdout.split()
+                    for _ in range(chosen.rounds)
+                ]
+                middle = np.median(np.array(told, dtype=float), axis=0)
+                name = f"law {label} and monitor, C" if what == "c" else f"TolerantController, {label}, C++"
+                rows.append([name, *(f"{x:.3g}" for x in middle), "bars: 5 and 50"])
     head = ["what", "median", "99 %", "99.9 %", "note"]
     return harness.table(f"A cycle in C, processor time of the thread, us, {cycles} cycles", head, rows)
 

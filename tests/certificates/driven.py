@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 SEGMENT = 2**20
-ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+ROWS = {"planar": [0, 1], "planar-pose": [0, 1, 5], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 
 
 class Driven:
@@ -23,6 +23,7 @@ class Driven:
         frames = [*document["arm"]["joints"], document["arm"]["tool"]]
         self.turns = [np.reshape(_numbers(frame["rotation"]), (3, 3)) for frame in frames]
         self.origins = [np.array(_numbers(frame["origin"])) for frame in frames]
+        self.slides = [joint["type"] == "prismatic" for joint in document["arm"]["joints"]]
         self.knots = np.array([_numbers(knot) for knot in document["knots"]])
         self.low, self.high = np.array([_numbers(pair) for pair in document["limits"]]).T
         self.rows = ROWS[document["task"]]
@@ -34,9 +35,15 @@ class Driven:
             place, turn = place + turn @ self.origins[k], turn @ self.turns[k]
             axes.append(turn[:, 2])
             points.append(place)
-            turn = turn @ Rotation.from_rotvec([0, 0, value]).as_matrix()
+            if self.slides[k]:
+                place = place + value * axes[-1]
+            else:
+                turn = turn @ Rotation.from_rotvec([0, 0, value]).as_matrix()
         place, turn = place + turn @ self.origins[-1], turn @ self.turns[-1]
-        columns = [np.append(np.cross(z, place - p), z) for z, p in zip(axes, points, strict=True)]
+        columns = [
+            np.append(z, 0 * z) if slide else np.append(np.cross(z, place - p), z)
+            for z, p, slide in zip(axes, points, self.slides, strict=True)
+        ]
         return place, turn, np.array(columns).T
 
     def healthy(self, s):

@@ -143,6 +143,67 @@ def test_joints_that_are_left_over_follow(tmp_path, rng):
     assert off < 1e-6 > beyond
 
 
+def test_an_arm_on_a_rail(tmp_path, rng):
+    """A slide that locks, and one that goes on; what is behind the second order is bounded with it as well."""
+    arm = hf.arms.load("ur5-rail")
+    start = np.array([0.2, 0.3, -1.2, 1.4, -1.0, -1.3, 0.2])
+    proof = hf.certify(path_claim(arm, straight(arm, start, [0.02, 0.03, 0.02], 3), failures=[0, 2]))
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided) == (0, proof.undecided)
+    driven = Driven(tmp_path / "a.certificate")
+    for lock in driven.document["locks"]:
+        off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[0]))
+        assert off < 1e-6 > beyond
+    assert proof.proved > 0.9
+    faults = verifier.motions.Faults(proof.document)
+    q, h = start + rng.normal(size=(2, 7)) * 0.05
+    with verifier.flint.ctx.workprec(64):
+        error, first, second = (x.at for x in between(faults, q, h))
+    for d in rng.normal(size=(100, 14)) * 0.1:
+        far = np.abs(d)
+        (place, _, _), (goal, _, _) = driven.tool(q + d[:7]), driven.tool(h + d[:6:-1])
+        line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
+        left = [faults.chain.third(x[None], faults.lengths, y[None])[0][0] for x, y in ((far[:7], q), (far[:6:-1], h))]
+        assert (np.abs(place - goal - line[:3]) <= sum(left) + 1e-12).all()
+
+
+def test_closed_form_of_a_planar_pose(flat4, tmp_path, rng):
+    """The pose says where the last joint is, and its lock where the one before is: again there are annuli."""
+    knots = np.array([0.3, 0.9, 0.5, -0.6]) + np.linspace(0, 1, 3)[:, None] * [0.2, -0.5, -0.3, 0.4]
+    proof = hf.certify(path_claim(flat4, knots, task="planar-pose"), halvings=3)
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided, check.refuted) == (0, proof.undecided, proof.refuted)
+    driven, links = Driven(tmp_path / "a.certificate"), np.array([1.0, 0.8, 0.6, 0.4])
+    at = (np.arange(2 * 32) + 0.5) / 32
+    healthy = np.array([driven.healthy(s)[0] for s in [*at, 2.0]])
+    ends = links * np.exp(1j * np.cumsum(healthy, axis=1))
+    for part in proof.parts:
+        true = np.zeros(len(at), dtype=bool)
+        for k, q in enumerate(healthy[:-1]):
+            goal = ends[k:, :3].sum(axis=1)  # of the last joint
+            long, short = abs(links[0] + links[1] * np.exp(1j * q[1])), links[2]
+            if part.joint == 0:
+                goal, long, short = goal - np.exp(1j * q[0]), *links[1:3]
+            elif part.joint == 2:
+                long, short = links[0], abs(links[1] + links[2] * np.exp(1j * q[2]))
+            elif part.joint == 3:
+                goal = goal - links[2] * np.exp(1j * (healthy[k:].sum(axis=1) - q[3]))
+                long, short = links[:2]
+            true[k] = np.abs(goal).max() < long + short and np.abs(goal).min() > abs(long - short)
+        said, never = np.zeros((2, len(at)), dtype=bool)
+        for which, spans in ((said, part.spans), (never, part.refuted_spans)):
+            for begin, stop in spans:
+                which |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
+        assert not (said & ~true).any()
+        assert not (never & true).any()
+        assert (~said & ~never).mean() < 0.15
+    assert proof.proved > 0
+    assert proof.refuted > 0
+    lock = driven.document["locks"][1]
+    off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[0]))
+    assert off < 1e-6 > beyond
+
+
 @pytest.fixture(scope="module")
 def singular(three):
     """A planar arm whose last joint comes straight while its first, which locks, draws the tool inwards: fast as a root is."""
@@ -173,7 +234,7 @@ def test_by_a_singular_configuration(singular, three, tmp_path, rng, monkeypatch
     for slab in near:
         off, beyond = driven.finished(lock, rng.uniform(*slab))
         assert off < 1e-6 > beyond
-    monkeypatch.setattr(march, "led", lambda *_: None)
+    monkeypatch.setattr(march, "led", lambda _, slabs: [None] * len(slabs))
     plain = hf.certify(singular.claim, halvings=4)
     assert singular.proved > 0.9
     assert singular.proved > plain.proved + Fraction(1, 5)
@@ -348,14 +409,19 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 # ---- bounds ----------------------------------------------------------------------------------------------------------
 
 
+def between(faults, q, goal):
+    """The verifier's form of the error at q from where the tool is at another configuration."""
+    at, wanted = (faults.chain.moved(list(map(verifier.motions.exactly, x[:, None]))) for x in (q, goal))
+    return (x[0, : faults.m] for x in faults.rows.between(at, wanted))
+
+
 def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     """Against differences of what the file says, by scipy's rotations."""
     driven = Driven(moved.write(tmp_path / "a.certificate"))
     faults = verifier.motions.Faults(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
-    balls = verifier.motions.Balls
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x[0] for x in faults.expanded(balls(q[None]), balls(h[None])))
+        error, first, second = between(faults, q, h)
 
     def missed(move):
         place, turn, _ = driven.tool(q + move[:7])
@@ -382,15 +448,19 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     faults, chain = verifier.motions.Faults(proof.document), Chain.of(panda)
     assert (faults.lengths >= chain.lengths).all()
     assert faults.lengths == pytest.approx(chain.lengths, abs=1e-9)
-    following = Following(chain, proof.claim.knots, 6, [1], np.empty(0), np.column_stack([panda.lower, panda.upper]))
+    limits = np.column_stack([panda.lower, panda.upper])
+    knots, slides = proof.claim.knots, panda.prismatic
+    following = Following(chain, knots, "pose", still=[1], tube=np.empty(0), limits=limits, slides=slides)
     q, goal = START[None] + 0.01, START[None]
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x.at[0] for x in faults.expanded(verifier.motions.Balls(q), verifier.motions.Balls(goal)))
+        error, first, second = (x.at for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
         now = following.missed(following.moved(q + ours), following.moved(goal + theirs))[0][0]
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
-        assert (np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None])[0] + 1e-12).all()
+        assert (
+            np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None], np.zeros((1, 14)))[0] + 1e-12
+        ).all()
 
 
 # ---- claims ----------------------------------------------------------------------------------------------------------
@@ -425,13 +495,6 @@ def test_what_makes_no_claim(three, given, said):
     motion = given.pop("motion", np.linspace([0.1, 0.2, 0.3], [0.2, 0.3, 0.5], 5))
     with pytest.raises(InputError, match=said):
         path_claim(three, motion, **{"task": "planar", **given})
-
-
-def test_a_slide_is_refused():
-    slides = next(name for name in hf.arms.names() if hf.arms.load(name).prismatic.any())
-    arm = hf.arms.load(slides)
-    with pytest.raises(InputError, match="slides"):
-        path_claim(arm, np.zeros((2, arm.n)), task="position")
 
 
 def test_words_and_picture(bent):

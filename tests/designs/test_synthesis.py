@@ -5,9 +5,10 @@ import pytest
 import yaml
 
 import holdfast as hf
+from holdfast.designs.book.entries import of_content
 from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
+from holdfast.designs.judging.orders import distinct_orders
 from holdfast.designs.synthesis.axes import axes_of, poses_of
-from holdfast.designs.synthesis.orders import distinct_orders
 
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 
@@ -187,6 +188,25 @@ def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_libra
         check = hf.designs.record(str(file)).check()
         assert any(said in claim for claim, holds in check.claims if not holds)
     assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in ("00", "05", 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
+
+
+def test_the_best_configurations_of_arms_that_are_sold_hold(book):
+    """The index of the library at the configuration, within the limits: the check measures by differences."""
+    sold = [r for r in book.values() if r.data.kind.of is not None]
+    assert len(sold) == 10
+    for record in sold:
+        c = record.data.kind
+        index = hf.indices.relative_manipulability(record.arm, c.task, c.failures)
+        assert index(record.q) == pytest.approx(record.data.value, rel=1e-7)
+        assert record.data.value <= index.bound
+    changed = yaml.safe_load(book["panda-pose-k1-001"].text)
+    for at, value, said in ((3, 1e-6, "value"), (5, 1.0, "within its limits")):
+        q = list(changed["at"])
+        q[at] += value
+        record = of_content(changed | {"at": q}, "", "changed")
+        assert any(said in claim for claim, holds in record.check().claims if not holds)
+    with pytest.raises(hf.InputError, match="there is no built-in arm 'pandas'"):
+        of_content(changed | {"class": changed["class"] | {"of": "pandas"}}, "", "changed")
 
 
 def test_a_record_in_mujoco(book):

@@ -250,7 +250,9 @@ def _minimise(error: _PeakError, largest: SX, m: int) -> SX:
             cell = [ca.if_else(better, x, y) for x, y in zip(here, cell, strict=True)]
         if number < kept - 1:
             estimates = [ca.if_else(which == k, _NEVER, x) for k, x in enumerate(estimates)]
-        best, least = _refine(error, cell, best, least, rounds)
+        turns = lowest < _NEVER
+        nearer = _refine(error, cell, best, least, rounds)
+        best, least = (ca.if_else(turns, x, y) for x, y in zip(nearer, (best, least), strict=True))
     return best
 
 

@@ -16,7 +16,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.control.c_functions import commented
+from holdfast.control.c_functions import Function, commented, written
 from holdfast.errors import InputError
 from holdfast.files.output import put
 from holdfast.kernels.program import SX
@@ -102,7 +102,7 @@ def c_files(law: _Law, name: str) -> dict[str, str]:
     function = ca.Function(f"{name}_law", [q, v], [ca.densify(x) for x in told.values()], ["q", "v"], list(told), {"cse": True})
     about = _about(law, name, list(told)[1:])
     return {
-        f"{name}.c": f'{about}\n#include "{name}.h"\n\n{_source(law, name, function)}',
+        f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_source(law, name, function)}',
         f"{name}.h": f"{about}\n{_header(law, name, function)}",
         f"{name}_example.c": _example(law, name, function),
         f"{name}_test.c": _test(law, name, function),
@@ -116,14 +116,13 @@ def _signature(law: _Law, name: str, function: ca.Function) -> str:
 
 def _source(law: _Law, name: str, function: ca.Function) -> str:
     n, m, others = law.arm.n, law.task.m, function.name_out()[1:]
-    generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
-    generator.add(function)
+    q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", m)
+    computed = Function({"q": q, "v": v}, {key: [x] for key, x in law.outputs(q, v).items()})
     copies = "".join(f"    if ({x}) *{x} = fine ? out_{x} : 0;\n" for x in others)
-    declared = f"    int iw[{max(function.sz_iw(), 1)}];\n    double w[{max(function.sz_w(), 1)}];\n"
-    declared += "".join(f"    double out_{x} = 0;\n" for x in others)
+    declared = "".join(f"    double out_{x} = 0;\n" for x in others)
     names = ", ".join(quoted(x) for x in law.arm.joint_names)
     # Zero rates stop an arm; NaN would go on to its drives.
-    return f"""{generator.dump()}
+    return f"""{written({"computed": computed})}
 const char *const {name}_joints[{n}] = {{{names}}};
 
 int {name}_check_joints(const char *const names[], int count) {{
@@ -137,13 +136,11 @@ int {name}_check_joints(const char *const names[], int count) {{
 }}
 
 {_signature(law, name, function)} {{
-{declared}    const double *arg[{max(function.sz_arg(), 2)}] = {{q, v}};
-    double *res[{max(function.sz_res(), len(others) + 1)}] = {{rates{"".join(f", &out_{x}" for x in others)}}};
-    int fine = 1, k;
+{declared}    int fine = 1, k;
     for (k = 0; k < {n}; ++k) fine = fine && q[k] - q[k] == 0;
     for (k = 0; k < {m}; ++k) fine = fine && v[k] - v[k] == 0;
     if (fine) {{
-        {function.name()}(arg, res, iw, w, 0);
+        computed(q, v, rates{"".join(f", &out_{x}" for x in others)});
         for (k = 0; k < {n}; ++k) fine = fine && rates[k] - rates[k] == 0;
     }}
     for (k = 0; k < {n} && !fine; ++k) rates[k] = 0;

@@ -173,7 +173,7 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     if np.isfinite(bounds.torque).all():
         terms = zip(("p", "energy", "gravity"), momentum_terms(bounds.body(arm), q, v), strict=True)
         functions["momentum"] = Function({"q": q, "v": v}, {term: [x] for term, x in terms})
-    text = written(name, functions)
+    text = written(functions)
     joints = ", ".join(quoted(x) for x in arm.joint_names)
     text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
     text += _array("torque_bound", bounds.torque) + _array("tracking_bound", bounds.tracking)

@@ -19,16 +19,14 @@ from string import ascii_letters
 
 import casadi as ca
 
-from holdfast.errors import KernelError
-from holdfast.kernels.program import OP_NAMES, Program
+from holdfast.kernels.graph import CONST, INPUT, OUTPUT, SELECT, Graph
+from holdfast.kernels.program import Program
 
 _PIECE = 1000  # operations in one function, about
 _TREE = 60  # operations in one expression, at most: engines read expressions recursively
 
 # Strength of binding, from loose to tight; -x has that of a sum, so that it is never written next to another sign.
 _CHOICE, _OR, _AND, _EQUAL, _LESS, _SUM, _PRODUCT, _UNARY, _ATOM = range(1, 10)
-
-_SELECT, _INPUT, _CONST, _OUTPUT = range(-4, 0)  # beside the operations of CasADi
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,7 @@ _FORMS = {
     ca.OP_AND: _Form("{0}&&{1}", _AND, (_AND, _EQUAL), (True, True), truth=True),
     ca.OP_OR: _Form("{0}||{1}", _OR, (_OR, _AND), (True, True), truth=True),
     ca.OP_IF_ELSE_ZERO: _Form("{0}?{1}:0", _CHOICE, (_OR, _CHOICE), (True, False)),
-    _SELECT: _Form("{0}?{1}:{2}", _CHOICE, (_OR, _CHOICE, _CHOICE), (True, False, False)),
+    SELECT: _Form("{0}?{1}:{2}", _CHOICE, (_OR, _CHOICE, _CHOICE), (True, False, False)),
     ca.OP_SIGN: _Form("{0}>0?1:{0}<0?-1:0", _CHOICE, (_SUM,)),
     ca.OP_FMIN: _Form("{0}<={1}?{0}:{1}", _CHOICE, (_SUM, _SUM)),
     ca.OP_FMAX: _Form("{0}>={1}?{0}:{1}", _CHOICE, (_SUM, _SUM)),
@@ -140,87 +138,16 @@ def javascript(program: Program, name: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-@dataclass(frozen=True)
-class _Node:
-    """A value: an operation, the numbers of its arguments, and which input or output it is, or the constant."""
-
-    op: int
-    args: tuple[int, ...] = ()
-    value: float = 0.0
-
-
-class _Graph:
-    """The values of a program, each computed once, in an order in which they can be.
+class _Graph(Graph):
+    """The values of a program, and which of them get a name: those that are written more than once.
 
     Attributes:
-        nodes: Values, each after its arguments.
-        needed: Numbers of those that an output needs, in order.
+        named: Their numbers.
+        size: Operations that an expression is written with.
     """
 
     def __init__(self, program: Program) -> None:
-        self.nodes: list[_Node] = []
-        self._known: dict[_Node, int] = {}
-        work: dict[int, int] = {}
-        inputs = [self._add(_Node(_INPUT, value=i)) for i in range(program.n_in)]
-        # A NaN in any input must reach every output, also where the expression ignores that input.
-        total = inputs[0]
-        for term in inputs[1:]:
-            total = self._add(_Node(ca.OP_ADD, (total, term)))
-        guard = self._add(_Node(ca.OP_SUB, (total, total)))
-        divisors = program.shared_divisors()
-        outputs: list[int] = []
-        for k, row in enumerate(program.instructions):
-            args = tuple(work[i] for i in row.inputs) if row.op != ca.OP_INPUT else ()
-            if row.op == ca.OP_INPUT:
-                work[row.output] = inputs[row.inputs[0]]
-            elif row.op == ca.OP_CONST:
-                work[row.output] = self._add(_Node(_CONST, value=row.constant))
-            elif row.op == ca.OP_ASSIGN:
-                work[row.output] = args[0]
-            elif row.op == ca.OP_OUTPUT:
-                sum_ = self._add(_Node(ca.OP_ADD, (args[0], guard)))
-                outputs.append(self._add(_Node(_OUTPUT, (sum_,), row.output)))
-            elif row.op not in _FORMS:
-                raise KernelError(
-                    f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which JavaScript does "
-                    "not have; write the expression with operations listed in docs/extending"
-                )
-            elif k in divisors:
-                shared = self._add(_Node(ca.OP_INV, args[-1:]))
-                work[row.output] = shared if row.op == ca.OP_INV else self._add(_Node(ca.OP_MUL, (args[0], shared)))
-            elif row.op == ca.OP_ADD:
-                work[row.output] = self._add(self._choice(*args) or _Node(ca.OP_ADD, args))
-            else:
-                work[row.output] = self._add(_Node(row.op, args))
-        self._count(outputs)
-
-    def _add(self, node: _Node) -> int:
-        if node not in self._known:
-            self._known[node] = len(self.nodes)
-            self.nodes.append(node)
-        return self._known[node]
-
-    def _choice(self, x: int, y: int) -> _Node | None:
-        """CasADi writes ``c ? a : b`` as ``(c ? a : 0) + (!c ? b : 0)``; one choice instead of four operations."""
-        one, other = self.nodes[x], self.nodes[y]
-        if one.op != ca.OP_IF_ELSE_ZERO or other.op != ca.OP_IF_ELSE_ZERO:
-            return None
-        (c, a), (d, b) = one.args, other.args
-        if self.nodes[d] == _Node(ca.OP_NOT, (c,)):
-            return _Node(_SELECT, (c, a, b))
-        if self.nodes[c] == _Node(ca.OP_NOT, (d,)):
-            return _Node(_SELECT, (d, b, a))
-        return None
-
-    def _count(self, outputs: list[int]) -> None:
-        """Which values are needed, and which of them get a name: those that are written more than once."""
-        reached, stack = set(outputs), list(outputs)
-        while stack:
-            for a in self.nodes[stack.pop()].args:
-                if a not in reached:
-                    reached.add(a)
-                    stack.append(a)
-        self.needed = sorted(reached)
+        super().__init__(program, "JavaScript", _FORMS.keys(), guarded=True)
         uses: Counter[int] = Counter()
         size: dict[int, int] = {}
         self.named: set[int] = set()
@@ -230,7 +157,7 @@ class _Graph:
                 uses[a] += form.text.count(f"{{{place}}}") if form else 1
         for k in self.needed:
             inner = [a for a in self.nodes[k].args if a not in self.named]
-            size[k] = int(self.nodes[k].op not in (_INPUT, _CONST)) + sum(size[a] for a in inner)
+            size[k] = int(self.nodes[k].op not in (INPUT, CONST)) + sum(size[a] for a in inner)
             if size[k] and (uses[k] > 1 or size[k] > _TREE):
                 self.named.add(k)
         self.size = size
@@ -266,7 +193,7 @@ class _Graph:
         if k in names and not whole:
             text, binds = names[k], _ATOM
         elif form is None:
-            text, binds = (f"x[{int(node.value)}]", _ATOM) if node.op == _INPUT else _number(node.value)
+            text, binds = (f"x[{int(node.value)}]", _ATOM) if node.op == INPUT else _number(node.value)
         else:
             parts = [
                 self.text(a, names, need, wanted) for a, need, wanted in zip(node.args, form.needs, form.truths, strict=False)
@@ -284,7 +211,7 @@ def _pieces(graph: _Graph) -> tuple[list[str], int]:
 
     Engines do not optimise a function that is too long.
     """
-    statements = [k for k in graph.needed if k in graph.named or graph.nodes[k].op == _OUTPUT]
+    statements = [k for k in graph.needed if k in graph.named or graph.nodes[k].op == OUTPUT]
     total = sum(graph.size[k] for k in statements)
     pieces = max(1, -(-total // _PIECE))
     piece: dict[int, int] = {}
@@ -311,7 +238,7 @@ def _pieces(graph: _Graph) -> tuple[list[str], int]:
                     names[a] = next(fresh)
                     stored = f"w[{slot[a]}]"
                     lines.append(f"{names[a]}={stored}" + ("!==0" if graph.truth(a) else ""))
-            if graph.nodes[k].op == _OUTPUT:
+            if graph.nodes[k].op == OUTPUT:
                 tail.append(f"y[{int(graph.nodes[k].value)}]={graph.text(graph.nodes[k].args[0], names)};")
                 continue
             text = graph.text(k, names, truth=graph.truth(k), whole=True)

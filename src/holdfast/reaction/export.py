@@ -106,7 +106,7 @@ def export_controller(
         f"{name}.hpp": f"{about}\n{text_of('controller.hpp')}",
         f"{name}.cpp": f"{about}\n{text_of('controller.cpp')}",
         f"{name}_law.h": f"{about}\n{text_of('law.h')}",
-        f"{name}_law.c": f'{about}\n#include "{name}_law.h"\n\n#include <math.h>\n\n{_masked(law, name)}\n{text_of("law.c")}',
+        f"{name}_law.c": f'{about}\n#include "{name}_law.h"\n\n#include <math.h>\n\n{_masked(law)}\n{text_of("law.c")}',
         f"{name}_example.cpp": text_of("example.cpp"),
         f"{name}_ros.cpp": text_of("ros.cpp"),
         f"{name}_plugin.xml": text_of("plugin.xml"),
@@ -115,11 +115,11 @@ def export_controller(
     return ExportedController(law=law, monitor=watching, **dict(zip(keys, put(folder, texts), strict=True)))
 
 
-def _masked(law: Law, name: str) -> str:
+def _masked(law: Law) -> str:
     arm = law.arm
     q, v, mask = kinematics.joint_symbols(arm), ca.SX.sym("v", law.task.m), ca.SX.sym("mask", arm.n)
     rates = masked.masked_rates(law, q, v, mask=mask, pull=ca.SX.zeros(arm.n))
-    return written(name, {"masked": Function({"q": q, "v": v, "mask": mask}, {"rates": [rates]})})
+    return written({"masked": Function({"q": q, "v": v, "mask": mask}, {"rates": [rates]})})
 
 
 def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:

@@ -59,14 +59,32 @@ class Rows:
         slopes, second = (x[:, : self.linear] for x in point_derivatives(spin, moves))
         if self.rotated:
             off, axes = self._left(moved.turn, target[self.linear :], count)
-            spin = Balls(np.concatenate([moved.spin.at, axes.at], 1), np.concatenate([moved.spin.off, axes.off], 1))
-            value = times("rij,nij->nr", self._weights, off)
-            value += Balls(np.append(np.zeros(len(self._weights.at) - 1), -self._less))
-            first = times("nrl,nal->nra", _axial(times("rij,nkj->nrik", self._weights, off)), spin)
-            later = times("nbik,nkj->nbij", crossed(spin), off)
-            twice = times("nrbl,nal->nrab", _axial(times("rij,nbkj->nrbik", self._weights, later)), spin)
-            error, slopes, second = joined(error, value), under(slopes, first), under(second, mirrored(twice))
+            return self._joined((error, slopes, second), off, under(moved.spin, axes))
         return error, slopes, second
+
+    def between(self, moved: Moved, goal: Moved) -> tuple[Balls, Balls, Balls]:
+        """The same rows of the tool of a chain from that of another, by the joints of the one, then of the other backwards."""
+        slopes, second = point_derivatives(moved.spin, moved.columns)
+        theirs, twice = point_derivatives(goal.spin, goal.columns)
+        linear, n = slice(self.linear), slopes.at.shape[2]
+        form = (moved.tip + -goal.tip)[:, linear], joined(slopes, -theirs[:, :, ::-1])[:, linear]
+        made = [np.zeros((len(slopes.at), self.linear, 2 * n, 2 * n)) for _ in range(2)]
+        for whole, one, other in ((made[0], second.at, -twice.at), (made[1], second.off, twice.off)):
+            whole[:, :, :n, :n], whole[:, :, n:, n:] = one[:, linear], other[:, linear, ::-1, ::-1]
+        if not self.rotated:
+            return *form, Balls(*made)
+        off = times("nij,nkj->nik", moved.turn, goal.turn)
+        back = -times("nij,nkj->nki", off, goal.spin)[:, ::-1]
+        return self._joined((*form, Balls(*made)), off, under(moved.spin, back))
+
+    def _joined(self, form: tuple[Balls, Balls, Balls], off: Balls, spin: Balls) -> tuple[Balls, Balls, Balls]:
+        """With the rows of a rotation (N, 3, 3), and two derivatives by turns about axes (N, V, 3), the outermost first."""
+        value = times("rij,nij->nr", self._weights, off)
+        value += Balls(np.append(np.zeros(len(self._weights.at) - 1), -self._less))
+        first = times("nrl,nal->nra", _axial(times("rij,nkj->nrik", self._weights, off)), spin)
+        later = times("nbik,nkj->nbij", crossed(spin), off)
+        twice = times("nrbl,nal->nrab", _axial(times("rij,nbkj->nrbik", self._weights, later)), spin)
+        return joined(form[0], value), under(form[1], first), under(form[2], mirrored(twice))
 
     def _left(self, turn: Balls, angles: list[Array], count: int) -> tuple[Balls, Balls]:
         """The rotation from target to tool (N, 3, 3), and the axes about which turns of the target turn it (N, t, 3)."""

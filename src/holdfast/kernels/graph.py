@@ -1,0 +1,101 @@
+"""A program as values that depend on each other, each computed once: what is printed as text in another language."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import casadi as ca
+
+from holdfast.errors import KernelError
+from holdfast.kernels.program import OP_NAMES, Program
+
+SELECT, INPUT, CONST, OUTPUT = range(-4, 0)  # beside the operations of CasADi
+
+
+@dataclass(frozen=True)
+class Node:
+    """A value: an operation, the numbers of its arguments, and which input or output it is, or the constant."""
+
+    op: int
+    args: tuple[int, ...] = ()
+    value: float = 0.0
+
+
+class Graph:
+    """The values of a program, each computed once, in an order in which they can be.
+
+    Args:
+        program: The computation.
+        language: That it is printed in.
+        operations: What that has.
+        guarded: Whether NaN or infinity in any input makes every output NaN, as a kernel does.
+
+    Attributes:
+        nodes: Values, each after its arguments.
+        needed: Numbers of those that an output needs, in order.
+
+    Raises:
+        KernelError: An operation that the language does not have; the message names it.
+    """
+
+    def __init__(self, program: Program, language: str, operations: Collection[int], *, guarded: bool) -> None:
+        self.nodes: list[Node] = []
+        self._known: dict[Node, int] = {}
+        work: dict[int, int] = {}
+        inputs = [self._add(Node(INPUT, value=i)) for i in range(program.n_in)]
+        if guarded:  # it must reach every output, also where the expression ignores that input
+            total = inputs[0]
+            for term in inputs[1:]:
+                total = self._add(Node(ca.OP_ADD, (total, term)))
+            guard = self._add(Node(ca.OP_SUB, (total, total)))
+        divisors = program.shared_divisors()
+        outputs: list[int] = []
+        for k, row in enumerate(program.instructions):
+            args = tuple(work[i] for i in row.inputs) if row.op != ca.OP_INPUT else ()
+            if row.op == ca.OP_INPUT:
+                work[row.output] = inputs[row.inputs[0]]
+            elif row.op == ca.OP_CONST:
+                work[row.output] = self._add(Node(CONST, value=row.constant))
+            elif row.op == ca.OP_ASSIGN:
+                work[row.output] = args[0]
+            elif row.op == ca.OP_OUTPUT:
+                told = self._add(Node(ca.OP_ADD, (args[0], guard))) if guarded else args[0]
+                outputs.append(self._add(Node(OUTPUT, (told,), row.output)))
+            elif row.op not in operations:
+                raise KernelError(
+                    f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which {language} does "
+                    "not have; write the expression with operations listed in docs/extending"
+                )
+            elif k in divisors:
+                shared = self._add(Node(ca.OP_INV, args[-1:]))
+                work[row.output] = shared if row.op == ca.OP_INV else self._add(Node(ca.OP_MUL, (args[0], shared)))
+            elif row.op == ca.OP_ADD:
+                work[row.output] = self._add(self._choice(*args) or Node(ca.OP_ADD, args))
+            else:
+                work[row.output] = self._add(Node(row.op, args))
+        reached, stack = set(outputs), list(outputs)
+        while stack:
+            for a in self.nodes[stack.pop()].args:
+                if a not in reached:
+                    reached.add(a)
+                    stack.append(a)
+        self.needed = sorted(reached)
+
+    def _add(self, node: Node) -> int:
+        if node not in self._known:
+            self._known[node] = len(self.nodes)
+            self.nodes.append(node)
+        return self._known[node]
+
+    def _choice(self, x: int, y: int) -> Node | None:
+        """CasADi writes ``c ? a : b`` as ``(c ? a : 0) + (!c ? b : 0)``; one choice instead of four operations."""
+        one, other = self.nodes[x], self.nodes[y]
+        if one.op != ca.OP_IF_ELSE_ZERO or other.op != ca.OP_IF_ELSE_ZERO:
+            return None
+        (c, a), (d, b) = one.args, other.args
+        if self.nodes[d] == Node(ca.OP_NOT, (c,)):
+            return Node(SELECT, (c, a, b))
+        if self.nodes[c] == Node(ca.OP_NOT, (d,)):
+            return Node(SELECT, (d, b, a))
+        return None
