@@ -71,6 +71,18 @@ def test_who_knows_of_a_weak_motor_asks_it_for_more():
     assert np.delete(asked[1], weak) == pytest.approx(np.delete(asked[0], weak))
 
 
+def test_who_counts_does_not_take_a_fault_of_before_for_the_arm():
+    env = environment(kinds()["reduced_range"], 3)
+    healthy = env.unwrapped.model.jnt_range.copy()
+    finished(env, lambda observation: np.zeros(7, dtype=np.float32), seed=1, episode=0)
+    assert (env.unwrapped.model.jnt_range != healthy).any()
+    teacher = Teacher(env, knows=True)
+    env.reset(seed=1, options={"episode": 1})
+    low, high, *_ = teacher._limits()
+    assert (low == healthy[:7, 0]).all()
+    assert (high == healthy[:7, 1]).all()
+
+
 def test_counting_goes_on_and_tries_other_ways_where_nobody_finished(monkeypatch):
     asked = []
 
