@@ -135,9 +135,7 @@ class Panel:
 
     def _watch_tab(self, arm: Arm, state: State) -> None:
         self.gui.add_html(
-            _line(
-                "Let a joint fail while the arm moves to the target, and see what a monitor makes of it. Time is in the tab Motion."
-            )
+            _line("A joint fails while the arm moves to the target: what does a monitor make of it? Time is in the tab Motion.")
         )
         kind = self.gui.add_dropdown("fault", tuple(KINDS), initial_value=state.fault[0])
         joint = self.gui.add_dropdown("of joint", arm.joint_names, initial_value=state.fault[1])
