@@ -70,17 +70,67 @@ def wrapper(chosen: argparse.Namespace) -> str:
     return harness.table("The wrapper, processor time", ["what", "median", "range", "note"], rows)
 
 
-def with_pinocchio(arm):
-    """A momentum observer as one writes it with Pinocchio: a step of it."""
+def vectors(chosen: argparse.Namespace) -> str:
+    """Steps of many arms whose joints lock, beside a loop over them with NumPy and Pinocchio's kinematics."""
+    import pinocchio as pin
+
+    import holdfast as hf
+
+    arm, count, period, damping = hf.arms.load("panda"), 64 if chosen.quick else 1024, 0.02, 0.05
+    law = hf.control.damped(arm, damping, task="position", gain=1.5)
+    start = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.8, 0.7])
+    pose = arm.forward_kinematics(start + 0.2)
+    faults = hf.faults.Faults([hf.faults.locked(onset=(0.0, 0.2))], seed=18)
+    options = {"period": period, "start": start, "tolerance": (0.0, 0.0), "horizon": 1e6}
+    env = hf.faults.FaultVectorEnv(law, count, faults, goals=lambda generator, n: np.tile(pose, (n, 1, 1)), **options)
+    still = np.zeros(env.action_space.shape)
+    model, tool = oracles().to_pinocchio(arm)
+    data, most = model.createData(), np.array([joint.velocity for joint in arm.joints])
+    events = [faults.draw(arm, episode=k, horizon=1e6)[0] for k in range(count)]
+    locks = [(arm.joint_index(event.joint), event.onset) for event in events]
+
+    def looped(q, time):
+        for row, (joint, onset) in zip(q, locks, strict=True):
+            pin.computeJointJacobians(model, data, row)
+            pin.updateFramePlacement(model, data, tool)
+            jacobian = pin.getFrameJacobian(model, data, tool, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)[:3]
+            wanted = 1.5 * (pose[:3, 3] - data.oMf[tool].translation)
+            rates = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping**2 * np.eye(3), wanted)
+            rates = np.clip(rates, -most, most)
+            if onset <= time + 1e-9:
+                rates[joint] = 0.0
+            row += period * rates
+        return q
+
+    env.reset(seed=0)
+    q = np.tile(start, (count, 1))
+    for k in range(15):
+        env.step(still)
+        looped(q, k * period)
+    far = float(np.abs(env.q - q).max())
+    both = [(per_call(lambda: env.step(still), 20), per_call(lambda: looped(q, 1.0), 2)) for _ in range(chosen.rounds)]
+    ratio = statistics.median(theirs / ours for ours, theirs in both)
+    each = [f"{statistics.median(x) / count:.3g}" for x in zip(*both, strict=True)]
+    row = [f"{count} Pandas, locks", *each, f"{ratio:.3g}", f"joints apart after 15 steps by at most {far:.1g} rad"]
+    head = ["what", "holdfast", "loop", "holdfast is faster by", "note"]
+    return harness.table("FaultVectorEnv, processor time of a step of an arm, us", head, [row])
+
+
+def oracles():
+    """Of the tests, which make a model of Pinocchio."""
+    import importlib
     import sys
     from pathlib import Path
 
     sys.path.append(str(Path(__file__).parents[1] / "tests"))
+    return importlib.import_module("oracles")
+
+
+def with_pinocchio(arm):
+    """A momentum observer as one writes it with Pinocchio: a step of it."""
     import pinocchio as pin
 
-    import oracles
-
-    model, _ = oracles.to_pinocchio(arm)
+    model, _ = oracles().to_pinocchio(arm)
     data, gain, dt = model.createData(), 40.0, 1 / RATE
     state = {"s": np.zeros(arm.n), "r": np.zeros(arm.n)}
 
@@ -274,6 +324,7 @@ def main() -> None:
     print("## W18: faults\n")
     print(harness.environment() + "\n")
     print(wrapper(chosen))
+    print(vectors(chosen))
     print(monitor(chosen))
     print(in_c(chosen))
 

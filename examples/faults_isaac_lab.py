@@ -1,7 +1,8 @@
 """Faults in Isaac Lab: an interval event that locks joints and adds friction by the arrays of ``Faults.batch``.
 
-UNTESTED: written from Isaac Lab's documentation; nobody has run it. Newer versions name these writers with ``_index`` or
-``_mask`` behind. A weak motor and a dropout belong into an action term, which scales or holds the joint's action.
+UNTESTED: written from Isaac Lab's documentation; nobody has run it, a test only calls it with stand-ins. Newer versions name
+these writers with ``_index`` or ``_mask`` behind. A weak motor and a dropout belong into an action term, which scales or holds
+the joint's action.
 """
 
 import holdfast as hf

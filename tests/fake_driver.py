@@ -56,8 +56,8 @@ class FakeDriver:
         return 0, {2: b"CUDA_ERROR_OUT_OF_MEMORY", 100: b"CUDA_ERROR_NO_DEVICE"}.get(int(status), b"CUDA_ERROR_UNKNOWN")
 
     def allocate(self, size):
-        block = (ctypes.c_char * size)()
-        address = ctypes.addressof(block)
+        block = (ctypes.c_char * (size + 256))()
+        address = -(-ctypes.addressof(block) // 256) * 256  # as a GPU's memory begins
         self.live[address] = block
         return address
 
@@ -116,18 +116,18 @@ class FakeDriver:
 
 
 class Array:
-    """A NumPy array that says it is on a GPU."""
+    """An array of NumPy, or of a framework, that says it is on a GPU."""
 
     def __init__(self, values, device=0):
         self.values, self.device, self.streams = np.asarray(values, dtype=float), device, []
-        self.shape = self.values.shape
+        self.shape, self.source = self.values.shape, values
 
     def __dlpack_device__(self):
         return 2, self.device
 
     def __dlpack__(self, *, stream=None):
         self.streams.append(stream)
-        return self.values.__dlpack__()
+        return (self.values if self.values.flags.writeable else self.source).__dlpack__()
 
 
 class Reader:

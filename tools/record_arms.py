@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from textwrap import indent
 
 import numpy as np
 
 import holdfast as hf
-from holdfast.arms.dh_file import text
-from holdfast.designs.book.measuring import jacobian_of, least_left, null_space_of
 from holdfast.grammar import TASKS
 
 FOLDER = Path(__file__).parents[1] / "src/holdfast/designs/book/data"
@@ -19,6 +16,12 @@ CLASSES = {
     "pose": [(7, 1), (8, 1), (8, 2), (9, 2), (9, 3), (10, 2), (10, 3)],
 }
 STARTS, SEED = 12, 1
+SOLD = {
+    "planar": [("planar-3r", 1)],
+    "position": [("panda", 1), ("panda", 2), ("iiwa14", 2), ("ur5", 1)],
+    "pose": [("panda", 1), ("xarm7", 1), ("ur5-rail", 1), ("pa10-9dof", 1), ("pa10-9dof", 2)],
+}
+DIGITS = 7  # of a configuration
 
 
 def main() -> None:
@@ -30,22 +33,29 @@ def main() -> None:
             made = hf.designs.synthesise(c, task=task, starts=STARTS, seed=SEED)
             arm = made.arms[int(np.argmin(made.losses))]
             name = f"{task}-{n}R-k{k}-001"
-            table = hf.arms.dh_table(arm)
-            rows = [(r.a, r.alpha, r.d, r.theta) for r in table.rows]
-            value = least_left(null_space_of(jacobian_of(rows, table.tool[:3, 3], np.zeros(n))[: c.m]), k)
-            (FOLDER / f"{name}.yaml").write_text(
-                f"id: {name}\n"
-                f"class: {{task: {task}, rows: {c.m}, joints: {n}, failures: {k}, quantity: relative-manipulability, "
-                "conditions: [revolute, one configuration]}\n"
-                f"value: {value!r}\n"
-                f"proven_bound: {{value: {c.bound!r}, by: {c.bound_by}}}\n"
-                f'found: {{by: holdfast, date: "2026-11-25", how: "synthesise, {STARTS} starts, seed {SEED}; '
-                f'{c.best_known:.12g} before rounding"}}\n'
-                f"arm:\n{indent(text(table, name), '  ')}"
-                f"at: home\ncheck: {{command: holdfast records check {name}, tolerance: 1.0e-9}}\nlicence: CC0-1.0\n",
-                encoding="utf-8",
-            )
-            print(name, value, c.best_known)
+            how = f"synthesise, {STARTS} starts, seed {SEED}; {c.best_known:.12g} before rounding"
+            record = hf.designs.new_record(arm, task, k, name=name, by="holdfast", how=how)
+            (FOLDER / f"{name}.yaml").write_text(record.text, encoding="utf-8")
+            print(name, record.data.value, c.best_known)
+    for task, cases in SOLD.items():
+        for sold, k in cases:
+            write_sold(sold, task, k)
+
+
+def write_sold(sold: str, task: str, k: int) -> None:
+    """The best configuration of an arm that is sold; joints that change nothing are at zero."""
+    arm = hf.arms.load(sold)
+    index = hf.indices.relative_manipulability(arm, task, k)
+    q = max((hf.optimise(arm, None, index, seed=seed).q for seed in (1, 2)), key=index)
+    for joint in range(arm.n):
+        rest = np.where(np.arange(arm.n) == joint, np.clip(0.0, arm.lower, arm.upper), q)
+        q = rest if abs(index(rest) - index(q)) < 1e-12 else q
+    name = f"{sold}-{task}-k{k}-001"
+    how = "holdfast optimise --anywhere, the better of seeds 1 and 2"
+    low, high = np.ceil(arm.lower * 10**DIGITS) / 10**DIGITS, np.floor(arm.upper * 10**DIGITS) / 10**DIGITS
+    record = hf.designs.new_record(arm, task, k, q=np.clip(np.round(q, DIGITS), low, high), name=name, by="holdfast", how=how)
+    (FOLDER / f"{name}.yaml").write_text(record.text, encoding="utf-8")
+    print(name, record.data.value)
 
 
 if __name__ == "__main__":

@@ -56,7 +56,3 @@ def table(stored: Path) -> list[str]:
         "|---|---|---|---|---|",
         *lines,
     ]
-
-
-if __name__ == "__main__":
-    table(Path("ceilings-again.jsonl"))

@@ -121,12 +121,14 @@ def together(text: str, html: bool = False) -> str:
 
 
 def duration(seconds: float) -> str:
-    """``4.2 s``, ``12 min``, ``3.0 h`` or ``2.5 days``."""
+    """``4.2 s``, ``12 min``, ``3.0 h``, ``2.5 days`` or ``40 years``."""
     if seconds < 60:
         return f"{seconds:.2g} s" if seconds < 10 else f"{seconds:.0f} s"
     if seconds < 5400:
         return f"{seconds / 60:.0f} min"
-    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
+    if seconds < 172_800:
+        return f"{seconds / 3600:.1f} h"
+    return f"{seconds / 86_400:.1f} days" if seconds < 1e8 else f"{seconds / 31_557_600:.2g} years"
 
 
 def article(word: str) -> str:

@@ -62,6 +62,15 @@ def test_two_of_two_are_the_regular_star_and_its_complement(n):
         assert least(c.null_space, k) == pytest.approx(best, rel=1e-9)
 
 
+@pytest.mark.parametrize("n", [6, 8, 10, 14])
+def test_two_bundles_and_two_single_lines_are_the_best_known_for_even_numbers_of_joints(n):
+    c, h = hf.ceilings.look_up(n=n, m=2, k=2), n // 2
+    assert least(c.null_space, 2) == pytest.approx(sqrt((sqrt(4 * h * h - 4 * h + 9) - h - 2) / (h - 1)), rel=1e-13)
+    if n <= 10:
+        assert least(np.array(_stored()[n, 2, 2]), 2) == pytest.approx(c.best_known, rel=1e-12)
+    assert c.best_known < c.bound < 1.01 * c.best_known
+
+
 def test_closed_forms_have_the_digits_of_the_best_known_values():
     for (n, m, k), text in CLOSED_FORMS.items():
         value = eval(re.sub(r"(?<=[\d)]) (?=sqrt|sin)", " * ", text))

@@ -12,7 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 SEGMENT = 2**20
-ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+ROWS = {task: list(range(count)) for task, count in (("planar", 2), ("position", 3), ("pointing", 5), ("pose", 6))}
+ROWS["planar-pose"] = [0, 1, 5]
 
 
 class Driven:
@@ -23,6 +24,7 @@ class Driven:
         frames = [*document["arm"]["joints"], document["arm"]["tool"]]
         self.turns = [np.reshape(_numbers(frame["rotation"]), (3, 3)) for frame in frames]
         self.origins = [np.array(_numbers(frame["origin"])) for frame in frames]
+        self.slides = [joint["type"] == "prismatic" for joint in document["arm"]["joints"]]
         self.knots = np.array([_numbers(knot) for knot in document["knots"]])
         self.low, self.high = np.array([_numbers(pair) for pair in document["limits"]]).T
         self.rows = ROWS[document["task"]]
@@ -34,9 +36,15 @@ class Driven:
             place, turn = place + turn @ self.origins[k], turn @ self.turns[k]
             axes.append(turn[:, 2])
             points.append(place)
-            turn = turn @ Rotation.from_rotvec([0, 0, value]).as_matrix()
+            if self.slides[k]:
+                place = place + value * axes[-1]
+            else:
+                turn = turn @ Rotation.from_rotvec([0, 0, value]).as_matrix()
         place, turn = place + turn @ self.origins[-1], turn @ self.turns[-1]
-        columns = [np.append(np.cross(z, place - p), z) for z, p in zip(axes, points, strict=True)]
+        columns = [
+            np.append(z, 0 * z) if slide else np.append(np.cross(z, place - p), z)
+            for z, p, slide in zip(axes, points, self.slides, strict=True)
+        ]
         return place, turn, np.array(columns).T
 
     def healthy(self, s):
@@ -73,7 +81,8 @@ class Driven:
             def rate(s, x, middle=middle):
                 healthy, rates = self.healthy(s)[0], self.healthy(middle)[1]
                 wanted = self.tool(healthy)[2] @ rates
-                slope = self.tool(placed(x, s))[2]
+                slope, frame = self.tool(placed(x, s))[2], self.tool(healthy)[1].T
+                wanted[3:], slope[3:] = frame @ wanted[3:], frame @ slope[3:]
                 wanted -= slope[:, lock["followers"]] @ rates[lock["followers"]]
                 return np.linalg.solve(slope[self.rows][:, free], wanted[self.rows])
 
@@ -84,7 +93,7 @@ class Driven:
             q, at = every[-1], end
         place, turn, _ = self.tool(q)
         goal, wanted, _ = self.tool(self.knots[-1])
-        off = np.append(place - goal, Rotation.from_matrix(turn @ wanted.T).as_rotvec())[self.rows]
+        off = np.append(place - goal, Rotation.from_matrix(wanted.T @ turn).as_rotvec())[self.rows]
         return float(np.abs(off).max()), beyond
 
 

@@ -51,6 +51,12 @@ def moved(panda):
 
 
 @pytest.fixture(scope="module")
+def elbow(moved, panda):
+    """Its elbow, of which the first sixth is refuted."""
+    return hf.certify(path_claim(panda, moved.claim.knots, failures=[3], during=(0, 1 / 6)), halvings=0)
+
+
+@pytest.fixture(scope="module")
 def bent(three):
     """A planar arm that stretches: after some locks the end is out of reach."""
     knots = np.array([0.3, 1.6, 0.7]) + np.linspace(0, 1, 7)[:, None] * [0.2, -1.2, -0.5]
@@ -108,8 +114,9 @@ def test_closed_form_of_a_planar_arm(bent, tmp_path):
     assert [part.refuted > 0 for part in bent.parts] == [True] * 3
 
 
-def test_where_a_lock_is_refuted_nothing_is_found(moved, tmp_path, rng):
+def test_where_a_lock_is_refuted_nothing_is_found(moved, elbow, tmp_path, rng):
     """By scipy's least squares, which finds the tool's place again if the elbow locks later."""
+    assert (elbow.refuted, hf.check_certificate(elbow.write(tmp_path / "b.certificate")).refuted) == (1, 1)
     driven = Driven(moved.write(tmp_path / "a.certificate"))
     lock = driven.document["locks"][3]
     (first, *_, last), free = lock["refutations"], [0, 1, 2, 4, 5, 6]
@@ -122,7 +129,7 @@ def test_where_a_lock_is_refuted_nothing_is_found(moved, tmp_path, rng):
             place, turn, _ = driven.tool(np.insert(x, 3, q[3]))
             return np.append(place - goal, (turn - wanted).ravel() / 2)
 
-        starts = [q[free], *rng.uniform(low, high, (8, 6))]
+        starts = [q[free], *rng.uniform(low, high, (5, 6))]
         left = min(least_squares(missed, x.clip(low, high), bounds=(low, high)).cost for x in starts)
         assert (left < 1e-16) == found
 
@@ -140,6 +147,93 @@ def test_joints_that_are_left_over_follow(tmp_path, rng):
     driven = Driven(file)
     lock = driven.document["locks"][1]
     off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[-1]))
+    assert off < 1e-6 > beyond
+
+
+def test_an_arm_on_a_rail(tmp_path, rng):
+    """A slide that locks, and one that goes on; what is behind the second order is bounded with it as well."""
+    arm = hf.arms.load("ur5-rail")
+    start = np.array([0.2, 0.3, -1.2, 1.4, -1.0, -1.3, 0.2])
+    proof = hf.certify(path_claim(arm, straight(arm, start, [0.02, 0.03, 0.02], 3), failures=[0, 2]))
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided) == (0, proof.undecided)
+    driven = Driven(tmp_path / "a.certificate")
+    for lock in driven.document["locks"]:
+        off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[0]))
+        assert off < 1e-6 > beyond
+    assert proof.proved > 0.9
+    faults = verifier.motions.Faults(proof.document)
+    q, h = start + rng.normal(size=(2, 7)) * 0.05
+    with verifier.flint.ctx.workprec(64):
+        error, first, second = (x.at for x in between(faults, q, h))
+    for d in rng.normal(size=(100, 14)) * 0.1:
+        far = np.abs(d)
+        (place, _, _), (goal, _, _) = driven.tool(q + d[:7]), driven.tool(h + d[:6:-1])
+        line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
+        left = [faults.chain.third(x[None], faults.lengths, y[None])[0][0] for x, y in ((far[:7], q), (far[:6:-1], h))]
+        assert (np.abs(place - goal - line[:3]) <= sum(left) + 1e-12).all()
+
+
+def test_a_tool_that_points(panda, tmp_path, rng):
+    """It may turn about its axis: five rows, and one joint that follows."""
+    proof = hf.certify(path_claim(panda, straight(panda, START, [0, 0, -0.03], 2), failures=[1, 4], task="pointing"))
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided) == (0, proof.undecided)
+    assert proof.ok
+    driven = Driven(tmp_path / "a.certificate")
+    for lock in driven.document["locks"]:
+        off, beyond = driven.finished(lock, rng.uniform(0, 2))
+        assert off < 1e-6 > beyond
+    faults = verifier.motions.Faults(proof.document)
+    (q, h), e = START + rng.normal(size=(2, 7)) * 0.02, 1e-4
+    across = driven.tool(h)[1][:, :2].T
+
+    def missed(move):
+        (place, turn, _), (goal, wanted, _) = driven.tool(q + move[:7]), driven.tool(h + move[:6:-1])
+        return np.append(place - goal, across @ (turn - wanted)[:, 2])
+
+    with verifier.flint.ctx.workprec(64):
+        error, first, second = (x.at for x in between(faults, q, h))
+    assert error == pytest.approx(missed(np.zeros(14)), abs=1e-14)
+    for a, b in e * np.eye(14)[rng.integers(14, size=(15, 2))]:
+        assert first @ a == pytest.approx((missed(a) - missed(-a)) / 2, abs=1e-11)
+        bend = (missed(a + b) - missed(a - b) - missed(b - a) + missed(-a - b)) / 4
+        assert a @ second @ b == pytest.approx(bend, abs=1e-13)
+
+
+def test_closed_form_of_a_planar_pose(flat4, tmp_path, rng):
+    """The pose says where the last joint is, and its lock where the one before is: again there are annuli."""
+    knots = np.array([0.3, 0.9, 0.5, -0.6]) + np.linspace(0, 1, 3)[:, None] * [0.2, -0.5, -0.3, 0.4]
+    proof = hf.certify(path_claim(flat4, knots, task="planar-pose"), halvings=3)
+    check = hf.check_certificate(proof.write(tmp_path / "a.certificate"))
+    assert (check.rejected, check.undecided, check.refuted) == (0, proof.undecided, proof.refuted)
+    driven, links = Driven(tmp_path / "a.certificate"), np.array([1.0, 0.8, 0.6, 0.4])
+    at = (np.arange(2 * 32) + 0.5) / 32
+    healthy = np.array([driven.healthy(s)[0] for s in [*at, 2.0]])
+    ends = links * np.exp(1j * np.cumsum(healthy, axis=1))
+    for part in proof.parts:
+        true = np.zeros(len(at), dtype=bool)
+        for k, q in enumerate(healthy[:-1]):
+            goal = ends[k:, :3].sum(axis=1)  # of the last joint
+            long, short = abs(links[0] + links[1] * np.exp(1j * q[1])), links[2]
+            if part.joint == 0:
+                goal, long, short = goal - np.exp(1j * q[0]), *links[1:3]
+            elif part.joint == 2:
+                long, short = links[0], abs(links[1] + links[2] * np.exp(1j * q[2]))
+            elif part.joint == 3:
+                goal = goal - links[2] * np.exp(1j * (healthy[k:].sum(axis=1) - q[3]))
+                long, short = links[:2]
+            true[k] = np.abs(goal).max() < long + short and np.abs(goal).min() > abs(long - short)
+        said, never = np.zeros((2, len(at)), dtype=bool)
+        for which, spans in ((said, part.spans), (never, part.refuted_spans)):
+            for begin, stop in spans:
+                which |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
+        assert not (said & ~true).any()
+        assert not (never & true).any()
+        assert (~said & ~never).mean() < 0.15
+    assert proof.refuted > 0
+    lock = next(lock for lock in driven.document["locks"] if driven.slabs(lock))
+    off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[0]))
     assert off < 1e-6 > beyond
 
 
@@ -173,7 +267,7 @@ def test_by_a_singular_configuration(singular, three, tmp_path, rng, monkeypatch
     for slab in near:
         off, beyond = driven.finished(lock, rng.uniform(*slab))
         assert off < 1e-6 > beyond
-    monkeypatch.setattr(march, "led", lambda *_: None)
+    monkeypatch.setattr(march, "led", lambda _, slabs: [None] * len(slabs))
     plain = hf.certify(singular.claim, halvings=4)
     assert singular.proved > 0.9
     assert singular.proved > plain.proved + Fraction(1, 5)
@@ -274,11 +368,6 @@ def said(key, value):
     return forge
 
 
-def swap_refuted(document):
-    """As if it had been proved, by the cells of another."""
-    document["locks"][3]["refutations"].pop()
-
-
 @pytest.mark.parametrize(
     "forge",
     [
@@ -301,15 +390,6 @@ def swap_refuted(document):
         recut(lambda x: np.append(x, [1, 2, 0])),
         put(("during", 1), 7 * SEGMENT),
         put(("locks", 3, "proved"), "1/1"),
-        put(("locks", 3, "refuted"), "1/1"),
-        put(("locks", 3, "refutations", 0, "begin"), 1),
-        put(("locks", 3, "refutations", 0, "stop"), 3 * SEGMENT),
-        put(("locks", 3, "refutations", 0, "at"), 2 * SEGMENT),
-        put(("locks", 3, "refutations", 1, "tree"), lambda x: written.packed(written.unpacked(x)[:-1])),
-        put(("locks", 3, "refutations", 1, "tree"), written.packed(b"\0")),
-        put(("points", 0, "place", 2), lambda x: shifted(x, 0.5)),
-        put(("pairs", 0), [3, 1]),
-        swap_refuted,
         said("proved", "1/1"),
         said("undecided", "0/1"),
         put(("task",), "position"),
@@ -320,6 +400,30 @@ def swap_refuted(document):
 def test_what_a_forger_changes_is_rejected(moved, tmp_path, forge):
     """With all digests made anew."""
     document = copy.deepcopy(moved.document)
+    forge(document)
+    path = written.stored(written.repaired(document), tmp_path / "a.certificate")
+    with contextlib.suppress(verifier.Refused):
+        assert verifier.verify(path).rejected > 0
+
+
+@pytest.mark.parametrize(
+    "forge",
+    [
+        put(("locks", 0, "refuted"), "1/2"),
+        put(("locks", 0, "refutations", 0, "begin"), 1),
+        put(("locks", 0, "refutations", 0, "stop"), 2 * SEGMENT),
+        put(("locks", 0, "refutations", 0, "at"), SEGMENT),
+        put(("locks", 0, "refutations", 0, "tree"), lambda x: written.packed(written.unpacked(x)[:-1])),
+        put(("locks", 0, "refutations", 0, "tree"), written.packed(b"\0")),
+        put(("points", 0, "place", 2), lambda x: shifted(x, 0.5)),
+        put(("pairs", 0), [3, 1]),
+        put(("locks", 0, "refutations"), []),
+        lambda document: put(("knots", 6, 3), document["knots"][0][3])(document),  # as it was at the lock
+        put(("knots", 0, 3), lambda x: shifted(x, -0.1)),
+    ],
+)
+def test_refutations_that_a_forger_changes_are_rejected(elbow, tmp_path, forge):
+    document = copy.deepcopy(elbow.document)
     forge(document)
     path = written.stored(written.repaired(document), tmp_path / "a.certificate")
     with contextlib.suppress(verifier.Refused):
@@ -348,14 +452,19 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 # ---- bounds ----------------------------------------------------------------------------------------------------------
 
 
+def between(faults, q, goal):
+    """The verifier's form of the error at q from where the tool is at another configuration."""
+    at, wanted = (faults.chain.moved(list(map(verifier.motions.exactly, x[:, None]))) for x in (q, goal))
+    return (x[0, : faults.m] for x in faults.rows.between(at, wanted))
+
+
 def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     """Against differences of what the file says, by scipy's rotations."""
     driven = Driven(moved.write(tmp_path / "a.certificate"))
     faults = verifier.motions.Faults(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
-    balls = verifier.motions.Balls
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x[0] for x in faults.expanded(balls(q[None]), balls(h[None])))
+        error, first, second = between(faults, q, h)
 
     def missed(move):
         place, turn, _ = driven.tool(q + move[:7])
@@ -382,15 +491,19 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     faults, chain = verifier.motions.Faults(proof.document), Chain.of(panda)
     assert (faults.lengths >= chain.lengths).all()
     assert faults.lengths == pytest.approx(chain.lengths, abs=1e-9)
-    following = Following(chain, proof.claim.knots, 6, [1], np.empty(0), np.column_stack([panda.lower, panda.upper]))
+    limits = np.column_stack([panda.lower, panda.upper])
+    knots, slides = proof.claim.knots, panda.prismatic
+    following = Following(chain, knots, "pose", still=[1], tube=np.empty(0), limits=limits, slides=slides)
     q, goal = START[None] + 0.01, START[None]
     with verifier.flint.ctx.workprec(64):
-        error, first, second = (x.at[0] for x in faults.expanded(verifier.motions.Balls(q), verifier.motions.Balls(goal)))
+        error, first, second = (x.at for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
         now = following.missed(following.moved(q + ours), following.moved(goal + theirs))[0][0]
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
-        assert (np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None])[0] + 1e-12).all()
+        assert (
+            np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None], np.zeros((1, 14)))[0] + 1e-12
+        ).all()
 
 
 # ---- claims ----------------------------------------------------------------------------------------------------------
@@ -418,20 +531,14 @@ def test_motions_are_thinned_and_time_ends(three, tmp_path):
         ({"segments": 0}, "segments is 0"),
         ({"during": (0.5, 0.5)}, "during must be"),
         ({"tube": -1.0}, "the tube must be"),
-        ({"task": "pointing"}, "task is 'pointing'"),
+        ({"task": "pointing", "tube": 0.1}, "no tube around a pointing path"),
+        ({"task": "turning"}, "task is 'turning'"),
     ],
 )
 def test_what_makes_no_claim(three, given, said):
     motion = given.pop("motion", np.linspace([0.1, 0.2, 0.3], [0.2, 0.3, 0.5], 5))
     with pytest.raises(InputError, match=said):
         path_claim(three, motion, **{"task": "planar", **given})
-
-
-def test_a_slide_is_refused():
-    slides = next(name for name in hf.arms.names() if hf.arms.load(name).prismatic.any())
-    arm = hf.arms.load(slides)
-    with pytest.raises(InputError, match="slides"):
-        path_claim(arm, np.zeros((2, arm.n)), task="position")
 
 
 def test_words_and_picture(bent):

@@ -175,3 +175,32 @@ def test_bad_input(law):
     env.reset(seed=0)
     with pytest.raises(InputError, match="a row for each arm"):
         env.step(np.zeros(3))
+
+
+@pytest.mark.parametrize("framework", ["torch", "jax"])
+def test_arrays_are_shared_with_a_framework_both_ways(framework, law):
+    pytest.importorskip(framework, reason=f"{framework} is not installed: CONTRIBUTING has the command that runs this test")
+    env = made(law, 8)
+    observation, _ = env.reset(seed=1)
+    there, pointer = shared(framework, observation)
+    assert pointer == observation.ctypes.data or (framework == "jax" and observation.ctypes.data % 64)  # JAX then copies it
+    twin = made(law, 8)
+    twin.reset(seed=1)
+    for action in (0.1 * there[:, :3], 0.1 * there[:, 3:6]):
+        for a, b in zip(env.step(action)[:4], twin.step(np.asarray(action))[:4], strict=True):
+            np.testing.assert_array_equal(a, b)
+    np.testing.assert_array_equal(there, observation)  # later steps have arrays of their own
+
+
+def shared(framework, array):
+    """An array of PyTorch or JAX that shares one with a ``__dlpack__``, and where it is."""
+    if framework == "torch":
+        import torch
+
+        there = torch.from_dlpack(array)
+        return there, there.data_ptr()
+    import jax
+
+    jax.config.update("jax_enable_x64", True)
+    there = jax.dlpack.from_dlpack(array)
+    return there, there.unsafe_buffer_pointer()

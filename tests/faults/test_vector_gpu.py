@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from test_vector import shared
 
 import holdfast as hf
-from fake_driver import Array, read
+from fake_driver import Array, Reader, read
 from holdfast.errors import InputError
 from holdfast.faults import Faults, FaultVectorEnv
 from holdfast.kernels import set_backend
@@ -99,3 +100,40 @@ def test_what_cannot_be_an_action_is_a_sentence_and_loses_nothing(gpu, rng):
     env.reset(seed=1)
     for a, b in zip(env.step(good)[:4], (twin.reset(seed=1), twin.step(good))[1][:4], strict=True):
         np.testing.assert_array_equal(a, b)
+
+
+@pytest.mark.parametrize("framework", ["torch", "jax"])
+def test_a_policy_of_a_framework_shares_what_is_on_the_device(framework, gpu):
+    """Its arrays are on the processor, as the device's memory is here; who reads and who is read is as on a GPU."""
+    pytest.importorskip(framework, reason=f"{framework} is not installed: CONTRIBUTING has the command that runs this test")
+
+    def episode(env, share, act):
+        observation, _ = env.reset(seed=3)
+        for _ in range(5):
+            there, pointer = shared(framework, share(observation))
+            assert not env._on_gpu or pointer == observation.pointer
+            action = 0.5 - 0.1 * there[:, :3] * there[:, 3:4]
+            observation = env.step(act(action))[0]
+            if env._on_gpu:
+                assert gpu.asked("cuLaunchKernel")[-1][-2][0][9] == shared(framework, action)[1]
+        return np.asarray(observation)
+
+    on, off = made("cuda", 8), made("llvm", 8)  # 8 doubles: JAX copies what does not begin at a multiple of 64 bytes
+    np.testing.assert_array_equal(episode(on, Reader, Array), episode(off, lambda x: x, lambda x: x))
+
+
+CONSUMERS = [
+    {},
+    {"stream": None},
+    {"stream": 1},
+    {"stream": 1, "max_version": (1, 0)},
+    {"stream": 2, "dl_device": (2, 0), "copy": False},
+]
+
+
+def test_what_frameworks_ask_of_an_array_is_answered(gpu):
+    """As PyTorch, JAX, CuPy and Warp ask: with and without a stream, a version and a device."""
+    reward = made("cuda").step(np.zeros((N, 3)))[1]
+    assert reward.__dlpack_device__() == (2, 0)
+    for asked in CONSUMERS:
+        assert "dltensor" in repr(reward.__dlpack__(**asked))

@@ -24,13 +24,27 @@ def star(n: int) -> Array:
     return np.asarray(np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
+def bundles(n: int) -> Array:
+    """Orthonormal columns (n, n - 2) for even n of 6 or more: the best known for two failures under tasks of two rows.
+
+    The columns of the Jacobian are two bundles of h - 1 lines, n = 2 h, at right angles to one another, and between them two
+    single lines, longer ones. After the worst two locks
+    ``rho^2 = (sqrt(4 h^2 - 4 h + 9) - h - 2) / (h - 1)`` is left. Derived here; not proven to be the ceiling.
+    """
+    h = n // 2
+    square = (2 * h + 1 - np.sqrt(4 * h * h - 4 * h + 9)) / (2 * (h - 1))  # of each line of a bundle
+    lengths = np.sqrt(np.repeat([square, 1 - (h - 1) * square] * 2, [h - 1, 1] * 2))
+    angle = np.repeat(np.pi / 4 * np.arange(4), [h - 1, 1] * 2)
+    return complement((lengths * np.stack([np.cos(angle), np.sin(angle)])).T)
+
+
 def complement(columns: Array) -> Array:
     """Orthonormal columns (n, n - p) across the given (n, p)."""
     return np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
 
 
 def known(n: int, m: int, k: int) -> Array | None:
-    """The null space that theorem T1, T2, T3 or T4 says attains its bound; None where none of them does."""
+    """The null space that theorem T1, T2 or T3 says attains its bound, or that is the best known of a family; else None."""
     p = n - m
     if k == 1 or m == 1:
         return equal_rows(n, p)
@@ -38,4 +52,6 @@ def known(n: int, m: int, k: int) -> Array | None:
         return star(n)
     if m == 2 and k == p:
         return complement(star(n))
+    if m == k == 2 and n >= 6 and n % 2 == 0:
+        return bundles(n)
     return None

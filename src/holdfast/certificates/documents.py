@@ -21,7 +21,7 @@ from holdfast.certificates.joint_boxes.jobs import Bisection
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.target_boxes.jobs import Found
 from holdfast.certificates.taylor import UNIT, Chain
-from holdfast.certificates.tool_paths import forms
+from holdfast.certificates.tool_paths import cells
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.rings import rings_of
@@ -125,7 +125,7 @@ def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
         _common("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
         | _asked(claim)
         | {
-            "unit": forms.UNIT.hex(),
+            "unit": cells.UNIT.hex(),
             "locks": locks,
             "points": points,
             "pairs": [] if rings is None else [list(pair) for pair in rings.pairs],

@@ -3,6 +3,7 @@ from holdfast.designs.book.entries import Record as Record
 from holdfast.designs.book.entries import RecordCheck as RecordCheck
 from holdfast.designs.book.entries import record as record
 from holdfast.designs.book.entries import records as records
+from holdfast.designs.book.writing import new_record as new_record
 from holdfast.designs.convergence import ConvergenceDesigns as ConvergenceDesigns
 from holdfast.designs.convergence import design_for_convergence as design_for_convergence
 from holdfast.designs.convergence import planar_measures as planar_measures
@@ -19,9 +20,11 @@ from holdfast.designs.gradient import Sensitivity as Sensitivity
 from holdfast.designs.gradient import sensitivity as sensitivity
 from holdfast.designs.joints import DesignJoints as DesignJoints
 from holdfast.designs.joints import LawOfDesigns as LawOfDesigns
-from holdfast.designs.judgement import Judgement as Judgement
-from holdfast.designs.judgement import Measured as Measured
-from holdfast.designs.judgement import judge as judge
+from holdfast.designs.judging.judgement import Judgement as Judgement
+from holdfast.designs.judging.judgement import Measured as Measured
+from holdfast.designs.judging.judgement import judge as judge
+from holdfast.designs.judging.orders import Orders as Orders
+from holdfast.designs.judging.orders import judge_orders as judge_orders
 from holdfast.designs.planar import PlanarRest as PlanarRest
 from holdfast.designs.planar import Radial as Radial
 from holdfast.designs.search import design as design
@@ -32,5 +35,3 @@ from holdfast.designs.space import parse_vary as parse_vary
 from holdfast.designs.synthesis.arms import Synthesis as Synthesis
 from holdfast.designs.synthesis.arms import synthesise as synthesise
 from holdfast.designs.synthesis.arms import written as written
-from holdfast.designs.synthesis.orders import Orders as Orders
-from holdfast.designs.synthesis.orders import judge_orders as judge_orders

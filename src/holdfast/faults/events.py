@@ -53,7 +53,7 @@ class FaultEvent:
 
     def sentence(self) -> str:
         """For people: ``panda_joint4: weak from 0.812 s on (gain 0.41)``."""
-        numbers = ", ".join(f"{name} {x}" if isinstance(x, str) else f"{name} {x:.4g}" for name, x in self.parameters.items())
+        numbers = ", ".join(f"{name} {x:.4g}" for name, x in self.parameters.items() if not isinstance(x, str))
         until = "on" if math.isinf(self.end) else f"to {self.end:.4g} s"
         return f"{self.joint}: {self.kind} from {self.onset:.4g} s {until}{f' ({numbers})' if numbers else ''}"
 

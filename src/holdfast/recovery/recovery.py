@@ -110,6 +110,15 @@ _SENTENCES = {
 }
 
 
+_UNCERTIFIED = {  # why a proof has no certificate, by its kind
+    "": "nothing is proved to be out of reach",
+    "start": "the proof is about where the arm is, which its file and its limits tell",
+    "limits": "the goal names joints beyond what is left of their limits, which needs no proof",
+    "rows kept": "the goal breaks what must be kept all the way, and certificates are about where the tool can be",
+    "disconnected": "the proof is about a way between configurations, and certificates are about where the tool can be",
+}
+
+
 @dataclass(frozen=True, kw_only=True)
 class Leg:
     """A part of the motion.
@@ -150,6 +159,7 @@ class Recovery(Result):
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
         proof: Why not everything that was asked for can be done, if that is proved; else None.
         proof_kind: Of the proof; see :class:`holdfast.recovery.Verdict`.
+        proved_pose: (4, 4) of the end effector, m, world: the pose of the tool path that is proved to have no configuration.
         closed_in: ``start`` or ``goal`` if what was searched from there along the rows kept could not grow any more.
         stopped: At which level the time limit was spent; empty if it was not.
         verified: What other code finds of the motion; None if there is none.
@@ -182,6 +192,7 @@ class Recovery(Result):
     choices: tuple[RowsGivenUp, ...] = ()
     proof: str | None = None
     proof_kind: ProofKind | Literal[""] = ""
+    proved_pose: Array | None = None
     closed_in: Literal["", "start", "goal"] = ""
     stopped: str = ""
     verified: Verification | None = None
@@ -271,8 +282,7 @@ class Recovery(Result):
         """The proof that the goal has no configuration, as a certificate that the verifier checks: ``.write(file)``.
 
         It is searched for anew, with the joints that are locked at equal limits. Proofs about boxes of joints and about the
-        arm's length have one; those about objects, about the arm's own links, about a way between configurations, about what is
-        kept all the way and about a pose of a tool path have none.
+        arm's length have one, of a goal and of a pose of a tool path; others say why they have none.
 
         Args:
             time_limit: s.
@@ -282,12 +292,12 @@ class Recovery(Result):
         """
         from holdfast.recovery.proofs.refuted_poses import refuted_pose
 
-        if self.proof_kind not in ("reach bound", "boxes") or self.goal_pose is None:
-            kind = f"'{self.proof_kind}'" if self.proof_kind else "none"
-            raise InputError(f"only proofs of the kinds 'reach bound' and 'boxes' have a certificate, and this one is {kind}")
-        if self.goal.startswith("any of"):
+        pose = self.proved_pose if self.proof_kind == "a pose of the path" else self.goal_pose
+        if self.proof_kind not in ("reach bound", "boxes", "a pose of the path") or pose is None:
+            raise InputError(f"there is no certificate: {_UNCERTIFIED.get(self.proof_kind, _UNCERTIFIED['rows kept'])}")
+        if self.proof_kind != "a pose of the path" and self.goal.startswith("any of"):
             raise InputError("a certificate is about one pose, and the goal is several; ask for each of them")
-        return refuted_pose(self.degraded, self.task, self.goal_pose, time_limit)
+        return refuted_pose(self.degraded, self.task, pose, time_limit)
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the waypoints, or the motion as it is timed; see :func:`holdfast.recovery.read_waypoints`.

@@ -21,6 +21,7 @@ from holdfast.certificates.taylor import Reach
 from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState, undecided
 from holdfast.engine.memory import Parts
 from holdfast.errors import InputError
+from holdfast.words import duration
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -40,6 +41,7 @@ class Found:
         seconds: Measured.
         cut: Axes along which the box is to be halved one after the other, each half another job: nothing was looked for.
         cells: That it would take, estimated.
+        advice: What is said of that where they are too many.
     """
 
     tree: bytes
@@ -49,6 +51,7 @@ class Found:
     seconds: float
     cut: tuple[int, ...] = ()
     cells: float = 0.0
+    advice: str = ""
 
     @property
     def too_many(self) -> bool:
@@ -63,8 +66,7 @@ class Found:
         """
         if self.too_many:
             raise InputError(
-                f"single configurations prove so little of this box that it would take some {self.cells:.0e} cells; "
-                "a smaller box or a narrower interval of the lock takes fewer"
+                f"single configurations prove so little of this box that it would take some {self.cells:.0e} cells{self.advice}"
             )
 
     @property
@@ -172,9 +174,14 @@ class Running:
         reach = Reach(claim.arm, claim.task, claim.locked, claim.limits, claim.rotation, claim.angle)
         seed = job.seed if not job.cut else [job.seed, job.number, *job.cut]
         self._search = Search(reach, box, job.halvings - depth, seed, until)
+        self._advice = ""
         self._cells, self._cut = 0.0 if job.cut else self._search.pool.cells, tuple[int, ...]()
         if _LARGE < self._cells <= verifier.MOST_LEAVES:
             self._cut = self._search.pool.cut(int(np.ceil(np.log2(self._cells / _JOB))), job.halvings)
+        if verifier.MOST_LEAVES < self._cells < np.inf:
+            axes, lock = int((box[:, 1] > box[:, 0]).sum()), " and of the interval of the lock" * (claim.angle is not None)
+            part = int(np.ceil((self._cells / verifier.MOST_LEAVES) ** (1 / axes)))
+            self._advice = f" and {duration(self._search.pool.seconds)}; with 1/{part} of each edge{lock} it would fit"
         self.finished = bool(self._cut) or self.found().too_many
         self._seconds = perf_counter() - began
 
@@ -195,4 +202,4 @@ class Running:
         """What is found so far."""
         tree, centres = self._search.tree.in_order()
         rows = np.array(centres, dtype=np.int64).reshape(-1, self.job.claim.arm.n)
-        return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells)
+        return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells, self._advice)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from time import monotonic
+from time import monotonic, perf_counter
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +16,10 @@ Index = NDArray[np.int64]
 _TARGETS, _MOST, _STARTS = 250, 1000, 12  # targets at first and at most, and random starts of each
 _EACH = 32  # cells for each target: where there are more, there are more targets
 _STRIDE = 0.5  # along self-motions, rad
-_CLIMB, _TYPICAL = 10, 16  # such steps, to prove more of cells that are so many times smaller than the root
+_CLIMB, _BEST, _WIDER = 10, 30, 2.0  # such steps, of the best more, to prove more of cells so many times wider than without,
+_MUCH, _WIDTHS = 0.75, (2.0**-10, 2.0**10)  # or twice as wide after so much of them is, in such a range
 _ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
+_TRIED = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
 _MET = 1e-9  # m and rad
 
 
@@ -39,6 +42,7 @@ class Pool:
     Attributes:
         q: (N, n) rad or m, those of the first targets.
         cells: That the whole would take, estimated; infinite where nobody knows.
+        seconds: That this would take here.
         halved: (A,) how often each axis is halved for them, in the mean.
     """
 
@@ -48,8 +52,10 @@ class Pool:
         self._unit = np.where(self._width > 0, self._width, 1.0)
         self._all, self._count, self._until = np.empty((0, reach.n)), 0, until
         self._added: list[tuple[Array, Array]] = []
+        self._best, self._tree = list[tuple[Array, Array]](), cast(Any, None)
+        self._half = np.zeros(len(root))
         self.q, self._at = self._grown()
-        self.cells, self.halved = self._estimate()
+        self.cells, self.halved, self.seconds = self._estimate(self.q, self._at)
 
     def enlarge(self) -> None:
         """As large as the claim asks; an estimate does without."""
@@ -65,21 +71,31 @@ class Pool:
         q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
         q = reach.solved(q, at[:, : reach.axes], 40)
         met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
-        q, at = self._climbed(q[met], at[met, : reach.axes]), at[met]
+        q, at = q[met], at[met]
+        if not self._half.any():
+            self._half = _WIDER / 2 * self._width * 0.5 ** self._estimate(q, at)[1]
+        q, size, wide = self._climbed(q, at, np.ones(len(q)), _CLIMB)
         self.add(at, q)
+        # Arms reach a target in several ways, and cells halved in one that proves little stay with it: of each target the best.
+        order = np.argsort(-size, kind="stable")
+        best = order[np.unique(at[order], axis=0, return_index=True)[1]]
+        found, _, _ = self._climbed(q[best], at[best], wide[best], _BEST)
+        self._best.append((at[best] / self._unit, found))
         return q, at
 
-    def _climbed(self, q: Array, targets: Array) -> Array:
-        """Moved along self-motions to where configurations prove more."""
-        q, half, best = q.copy(), np.tile(self._width / _TYPICAL, (len(q), 1)), np.full(len(q), -1.0)
-        for k in range(1 + _CLIMB * self._reach.redundant):
+    def _climbed(self, q: Array, at: Array, wide: Array, steps: int) -> tuple[Array, Array, Array]:
+        """Moved along self-motions to where configurations prove more, and how much: parts of cells so many times as wide."""
+        q, best, targets = q.copy(), np.full(len(q), -1.0), at[:, : self._reach.axes]
+        for k in range(1 + steps * self._reach.redundant):
             if monotonic() > self._until:
                 break
             other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
-            size = Form.at(self._reach, other, targets).scale(half, best if k else None)
+            half = np.minimum(self._half * wide[:, None], self._width / 2)
+            size = wide * Form.at(self._reach, other, targets).scale(half, best / wide if k else None)
             better = size > best
             q[better], best[better] = other[better], size[better]
-        return q
+            wide = np.clip(np.where(best > _MUCH * wide, 2 * wide, np.where(best > 0, wide, wide / 2)), *_WIDTHS)
+        return q, best, wide
 
     def add(self, centre: Array, q: Array) -> None:
         """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""
@@ -103,6 +119,17 @@ class Pool:
         _, nearest = self._nearest(centre, count)
         return np.asarray(self._all[nearest])
 
+    def best(self, centre: Array) -> Array:
+        """(N, n) of the target that was drawn nearest to each centre (N, A), what proves most; (0, n) if there is none."""
+        at, q = (np.concatenate(x) for x in zip(*self._best, strict=True))
+        if not len(q):
+            return np.empty((0, self._reach.n))
+        from scipy.spatial import KDTree
+
+        if self._tree is None or self._tree.n != len(q):
+            self._tree = KDTree(at)
+        return np.asarray(q[self._tree.query(centre / self._unit, p=np.inf)[1]])
+
     def known(self, centre: Array, half: Array) -> NDArray[np.bool_]:
         """(N,) whether one is known in cells (N, A), or in what is beside them where they are longer than wide."""
         away, _ = self._nearest(centre, 1)
@@ -118,23 +145,30 @@ class Pool:
             left[axis] -= 1
         return tuple(axes)
 
-    def _estimate(self) -> tuple[float, Array]:
-        """The median over some of these of 2 to the halvings until one proves its cell; the halvings of each axis."""
-        if not len(self.q):
-            return float("inf"), np.zeros(len(self._root))
-        some = self._rng.permutation(len(self.q))[:_ASKED]
-        form, half = (
-            Form.at(self._reach, self.q[some], self._at[some, : self._reach.axes]),
-            np.tile(self._width / 2, (len(some), 1)),
-        )
-        halvings, may = np.zeros(len(some)), np.broadcast_to(self._width > 0, half.shape)
-        first = half.copy()
+    def _estimate(self, q: Array, at: Array) -> tuple[float, Array, float]:
+        """The cells, of each axis the halvings, and the seconds, from some of configurations (N, n) of targets (N, A).
+
+        Of the cells the median of 2 to the halvings until a configuration proves its cell.
+        """
+        if not len(q):
+            return np.inf, np.zeros(len(self._root)), np.inf
+        some = self._rng.permutation(len(q))[:_ASKED]
+        targets, half = at[some, : self._reach.axes], np.tile(self._width / 2, (len(some), 1))
+        form = Form.at(self._reach, q[some], targets)
+        halvings, may = np.zeros(half.shape), np.broadcast_to(self._width > 0, half.shape)
+        left = np.arange(len(some))
         for _ in range(_ENOUGH):
-            left = np.flatnonzero(~form.proved(half)[0])
+            left = left[~form.take(left).proved(half[left])[0]]
             if not left.size:
                 break
-            halvings[left] += 1
-            half[left, form.take(left).worst_axis(half[left], may[left])] /= 2
-        some_do = halvings[halvings < _ENOUGH]  # a configuration at a limit proves nothing, however small the cell
-        cells = float(2 ** np.median(some_do)) if some_do.size else float("inf")
-        return cells, np.log2(np.divide(first, half, out=np.ones_like(half), where=half > 0)).mean(axis=0)
+            axis = form.take(left).worst_axis(half[left], may[left])
+            halvings[left, axis] += 1
+            half[left, axis] /= 2
+        began = perf_counter()
+        Form.at(self._reach, self._reach.solved(form.q, targets), targets).scale(half)
+        each = (perf_counter() - began) / len(some)
+        done = halvings[np.setdiff1d(np.arange(len(some)), left)]  # one at a limit proves nothing, however small the cell
+        if not len(done):
+            return np.inf, np.zeros(len(self._root)), np.inf
+        cells = float(2 ** np.median(done.sum(axis=1)))
+        return cells, done.mean(axis=0), _TRIED * each * cells

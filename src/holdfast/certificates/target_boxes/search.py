@@ -130,7 +130,11 @@ class Search:
         self._push(self.tree.halved(rest, axis), np.repeat(part[some], 2))
 
     def _from_pool(self, q: Array, found: Flags, part: Array, smallest: Flags, centre: Array, half: Array) -> None:
-        """In place: cells of which little is proved try the nearest of the pool, the smallest more of them."""
+        """In place: all try what proves most near them, those of which little is proved the nearest of the pool, too."""
+        which = np.flatnonzero(~found)
+        best = self.pool.best(centre[which])
+        if len(best):
+            self._improve(q, found, part, which, best, centre, half)
         some = np.flatnonzero(~found & ((part < _HOPELESS) | smallest))
         near = self.pool.near(centre[some], _NEAR[1])
         for k in range(near.shape[1]):

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
-from holdfast.certificates.claims import ROWS, need_turning
-from holdfast.certificates.tool_paths.forms import SEGMENT
+from holdfast.certificates.claims import ROWS, need_flat, need_turning
+from holdfast.certificates.tool_paths.cells import SEGMENT
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 _MOST_SEGMENTS = 256
 _WIDEST = 0.1  # m and rad, of a tube
-_MOST_TURN = 7.0  # rad, as the file counts angles
+_MOST_TURN = 7.0  # rad and m, as the file counts them
 _FINEST = SEGMENT >> 6  # instants: ends of what is claimed are multiples of it
 
 
@@ -28,9 +28,9 @@ class PathClaim:
     """After a lock at any instant of a healthy motion, one continuous motion finishes the path of the tool.
 
     Attributes:
-        arm: The arm, all of whose joints turn.
-        task: ``pose``, ``position`` or ``planar``: what of the tool follows the path.
-        knots: (K + 1, n) rad, of the healthy motion, which is straight between them.
+        arm: The arm.
+        task: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``: what of the tool follows the path.
+        knots: (K + 1, n) rad and m, of the healthy motion, which is straight between them.
         locks: Indices of the joints that may lock, one at a time, in order.
         during: First and last instant of a lock, in units of 2^-20 of a segment.
         tube: (2,) m and rad: within this of the path, any continuous one that begins on it is finished as well.
@@ -67,8 +67,8 @@ def path_claim(
     The locked joint stays where the healthy motion had it at that instant; the others begin where they are.
 
     Args:
-        arm: The arm; all of its joints must turn.
-        motion: (K + 1, n) rad, configurations of the healthy arm one after the other, or what has such a ``q``, as a
+        arm: The arm.
+        motion: (K + 1, n) rad and m, configurations of the healthy arm one after the other, or what has such a ``q``, as a
             :class:`holdfast.Trajectory`. Between them joints move along straight lines, and it is the path of the tool on that
             motion which is finished.
         failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
@@ -76,24 +76,28 @@ def path_claim(
             to 1/64 of a segment.
         tube: m, and rad as well where the task has rotations, or these two: any continuous path of the tool is finished that
             begins on that of the motion and stays within this of it.
-        task: ``pose``, ``position`` or ``planar``: what of the tool follows the path.
+        task: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``: what of the tool follows the path.
         segments: Use so many, of equal numbers of steps of the motion as nearly as may be; default: all, at most 256.
 
     Raises:
-        InputError: A motion, interval or tube that makes no claim, a motion beyond the limits, or an arm with slides.
+        InputError: A motion, interval or tube that makes no claim, a motion beyond the limits, or an arm that leaves the plane.
         TaskError: An arm without redundancy, no failures, or failures of several joints at once.
     """
     if task not in ROWS:
         raise InputError(f"task is '{task}'; paths are of {', '.join(ROWS)}")
-    need_turning(arm)
+    if task == "pointing" and np.any(tube):
+        raise InputError("there is no tube around a pointing path; tube must be 0")
+    if task == "planar-pose":
+        need_flat(arm, "a planar pose is")
+        need_turning(arm)
     locks = tuple(sorted(single_joints(arm, failures)))
-    require_redundant(arm, ROWS[task], task, tuple((k,) for k in locks))
-    given = real_numbers(getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad")
+    require_redundant(arm, len(ROWS[task]), task, tuple((k,) for k in locks))
+    given = real_numbers(getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad and m")
     if given.ndim != 2 or given.shape[1] != arm.n or len(given) < 2 or not np.isfinite(given).all():
-        raise InputError(f"a motion needs two configurations or more of {arm.n} finite angles, not an array of {given.shape}")
+        raise InputError(f"a motion needs two configurations or more of {arm.n} finite numbers, not an array of {given.shape}")
     if np.abs(given).max() >= _MOST_TURN:
         raise InputError(
-            f"a joint of the motion turns to {np.abs(given).max():.3g} rad; for certificates of paths {_MOST_TURN} is most"
+            f"a joint of the motion is at {np.abs(given).max():.3g} rad or m; for certificates of paths {_MOST_TURN:g} is most"
         )
     beyond = ((given < arm.lower) | (given > arm.upper)).any(axis=1)
     if beyond.any():

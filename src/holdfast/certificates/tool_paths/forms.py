@@ -11,14 +11,15 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.certificates.claims import ROWS
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tool_paths.cells import SEGMENT, UNIT, Cells, Forms
+from holdfast.certificates.tool_paths.tools import axial, onto, sideways, solved, swept, tangents, twice
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-SEGMENT = 1 << 20  # instants to a segment
-UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
 _ROUNDS, _TIGHTER = 30, 6  # of the section box: wider until it does, then narrower
 _MARGIN, _LEAST = 1.003, 1e-9  # of what the verifier must be able to show
 _STRAIGHT, _TURN = 2.91, 1.19  # of rotations: the trace in the middle, and what is turned from there
@@ -30,83 +31,29 @@ _NEAR, _JUMP = 1e-6, 0.3  # m and rad
 _NEVER = 10.0  # m and rad: no section box is so wide
 
 
-@dataclass(frozen=True, eq=False)
-class Cells:
-    """Cells of slabs, N of them: instants, in parts of a segment.
-
-    Attributes:
-        begin, stop: (N,) the slab of lock instants, in one segment.
-        start, end: (N,) the cell of the path, in one segment; of one that is turned its middle, twice.
-        width: (N,) half widths of those along the tangent of the motion, in units of the file; 0: not turned.
-    """
-
-    begin: Ints
-    stop: Ints
-    start: Ints
-    end: Ints
-    width: Ints
-
-    @property
-    def half(self) -> Array:
-        """(N, 2) half widths of both, in segments."""
-        half = np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT)
-        half[:, 1] += self.width * UNIT
-        return half
-
-
-@dataclass(frozen=True, eq=False)
-class Forms:
-    """What is found in cells, N of them, each with as many columns as coordinates: lock, path, tube, section.
-
-    Attributes:
-        q: (N, n) centres, rad.
-        place: (N,) middles on the path, in segments.
-        turned: (N,) whether the path is that along the tangent of the motion.
-        own: (N, m + 1, columns) how free joints, then the place on the path, follow the coordinates.
-        half: (N, columns) half widths of these, the section's as small as it may be.
-        only: (N, m) of the section box in which there is one solution.
-        good: (N,) whether that is shown, and within the limits.
-    """
-
-    q: Array
-    place: Array
-    turned: Flags
-    own: Array
-    half: Array
-    only: Array
-    good: Flags
-
-    def take(self, which: Ints) -> Forms:
-        """Of some of them."""
-        return Forms(*(getattr(self, field.name)[which] for field in fields(self)))
-
-    def joined(self, others: Forms) -> Forms:
-        """With others behind them."""
-        return Forms(*(np.concatenate([getattr(one, field.name) for one in (self, others)]) for field in fields(self)))
-
-    def replaced(self, others: Forms, where: Flags) -> Forms:
-        """With some of others instead."""
-        both = self.joined(others)
-        return both.take(np.arange(len(where)) + len(where) * where)
-
-
 class Following:
     """A locked arm that follows the tool of the healthy one.
 
     Args:
         chain: The arm.
         knots: (K + 1, n) of the healthy motion, rad.
-        m: Rows: 2, 3 or 6.
+        task: What of the tool follows.
         still: The locked joint, then those that go on with the healthy motion.
         tube: (m,) half widths, m and rad; or none, (0,).
-        limits: (n, 2) rad.
+        limits: (n, 2) rad and m.
+        slides: (n,) which joints slide.
     """
 
-    def __init__(self, chain: Chain, knots: Array, m: int, still: list[int], tube: Array, limits: Array) -> None:
-        self.chain, self.knots, self.m, self.still, self.tube, self.limits = chain, knots, m, still, tube, limits
-        self.n = knots.shape[1]
+    def __init__(
+        self, chain: Chain, knots: Array, task: str, *, still: list[int], tube: Array, limits: Array, slides: Flags
+    ) -> None:
+        self.chain, self.knots, self.still, self.tube, self.limits = chain, knots, still, tube, limits
+        self.n, self.slides, self._rows = knots.shape[1], slides, ROWS[task]
+        self.m = len(self._rows)
+        self.rotated, self._pointing = self._rows[-1] > 2, task == "pointing"
         self.free = [k for k in range(self.n) if k not in still]
-        self._linear = min(3, m)
+        self._linear = sum(row < 3 for row in self._rows)
+        self._turns = np.tile(~slides, 2).astype(float)
 
     def healthy(self, twice: Ints, end: Ints) -> tuple[Array, Array]:
         """Joints of the healthy motion at half of ``twice``, and rates over the segments that end there."""
@@ -130,7 +77,7 @@ class Following:
             error, slope = self.missed(at, target)
             if np.abs(error).max(initial=0.0) < _MET:
                 break
-            q[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+            q[:, self.free] -= np.clip(solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
         q[:, self.free] = np.round(q[:, self.free] / UNIT) * UNIT
         return q
 
@@ -150,30 +97,28 @@ class Following:
         second = self._bent(at, target, d)
         left = np.abs(slopes @ d - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1))
         half = np.concatenate([cells.half, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
-        given, bend = (np.abs(d), left, second), 1 - np.eye(half.shape[1])
+        out = np.concatenate([q, goal], axis=1)
+        given = _Bounds(error, np.abs(d), left, np.abs(second), np.einsum("nacc->nac", second), np.abs(out) * (1 - self._turns))
+        closed, far, angle = self._closed(given, half)
         s = half[:, -m:]
-        for k in range(_ROUNDS + _TIGHTER):
-            e, far, angle = self._excess(error, *given, half, bend)
-            closed = np.asarray(((_MARGIN * e + _LEAST <= s) & (s < 1)).all(axis=1))
-            s[:] = np.where(closed[:, None], s if k < _ROUNDS else _MARGIN * e + 1.01 * _LEAST, 1.05 * e + 2 * _LEAST)
-            np.clip(np.nan_to_num(s, nan=_NEVER), 0, _NEVER, out=s)
         only, one = np.zeros_like(s), np.zeros(len(q), dtype=bool)
         for size in _SIZES:
-            wide = np.where(one[:, None], only, s + size)
-            one |= self._contracts(*given, half, wide)
-            only = np.where(one[:, None], wide, only)
+            rows = np.flatnonzero(closed & ~one)
+            if not rows.size:
+                break
+            wide = s[rows] + size
+            found = self._contracts(given.take(rows), half[rows], wide)
+            only[rows[found]], one[rows[found]] = wide[found], True
         low, high = self.limits[self.free].T
         reach = 1.001 * far[:, self.free] + 1e-7
         closed &= (s < _ROOM * only).all(axis=1)
         good = closed & one & ((q[:, self.free] - reach >= low) & (q[:, self.free] + reach <= high)).all(axis=1)
-        if m > 3:
-            good &= (angle < _TURN) & (np.einsum("nij,nij->n", at[1], target[1]) > _STRAIGHT)
+        if self.rotated:
+            good &= (angle < _TURN) & (self.straight(at, target) > _STRAIGHT)
         place = (cells.start + cells.end) / (2 * SEGMENT)
-        if turned.any():
-            some = [x[turned] for x in given]
-            good[turned] &= self._forward(
-                some[0], some[1], some[2], half[turned], own[turned], (place - (cells.end - 1) // SEGMENT - 1)[turned]
-            )
+        if (some := np.flatnonzero(turned)).size:
+            left_over = (place - (cells.end - 1) // SEGMENT - 1)[some]
+            good[some] &= self._forward(given.take(some), half[some], own[some], left_over)
         return Forms(q, place, turned, own, half, only, good)
 
     def _section(self, slopes: Array, rate: Array, along: Array, turned: Flags) -> Array:
@@ -182,13 +127,13 @@ class Following:
         jacobian, drift = slopes[:, :, self.free], slopes[:, :, self.still[0]] * rate[:, self.still[:1]]
         ahead = np.einsum("nmk,nk->nm", slopes[:, :, n:], along)
         ahead += np.einsum("nmk,nk->nm", slopes[:, :, self.still[1:]], along[:, self.still[1:]])
-        inverse = _solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
+        inverse = solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
         own = np.zeros((len(slopes), m + 1, 2 + tube + m))
         own[:, -1, 1] = 1
         own[:, :-1, :2] = -inverse @ np.stack([drift, ahead], axis=2)
         own[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
         if turned.any():
-            tangent, across = _tangent(np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned])
+            tangent, across = tangents(np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned])
             # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
             beside = (tangent[:, :-1] * rate[turned][:, self.free]).sum(axis=1) + tangent[:, -1]
             own[turned, :, 0] = tangent * beside[:, None] - np.einsum("nkm,nm->nk", across, drift[turned])
@@ -222,7 +167,7 @@ class Following:
         """Whether all that is so far from points (N, m + 1) is where cells have one solution; ``turned``: those before."""
         matrix = forms.own[:, :, [1, *range(-self.m, 0)]]
         here = np.column_stack([forms.q[:, self.free], forms.place])
-        found = _solved(matrix, np.concatenate([(point - here)[:, :, None], away], axis=2))
+        found = solved(matrix, np.concatenate([(point - here)[:, :, None], away], axis=2))
         most = _MARGIN * np.abs(found).sum(axis=2) + _LEAST
         inside = (most[:, 0] < forms.half[:, 1]) | ~(turned | forms.turned)
         return np.asarray((most[:, 1:] < forms.only).all(axis=1) & inside)
@@ -233,20 +178,20 @@ class Following:
         q[:, self.free] += before.own[:, :-1, 1] * middle[:, None]
         return self.placed(q, cells)
 
-    def ahead(self, q: Array, place: float, base: int, by: Array) -> tuple[Array, Ints]:
-        """From a configuration (n,) of the motion at a place of a segment: along its tangent by (N,), and back onto it."""
-        held, end = q[self.still[0]], np.array([base + SEGMENT])
-        z = np.tile(np.append(q, place), (len(by), 1))
+    def ahead(self, q: Array, place: Array, base: Ints, by: Array) -> tuple[Array, Ints]:
+        """From configurations (N, n) of motions at places of segments: along their tangents by (N,), and back onto them."""
+        z, end, held = np.column_stack([q, place]), base + SEGMENT, q[:, self.still[0]]
         for k in range(_NEWTON):
             goal, along = self.healthy(np.rint(2 * SEGMENT * z[:, -1]), end)
             z[:, self.still[1:]] = goal[:, self.still[1:]]
             at, target = self.moved(z[:, :-1]), self.moved(goal)
             error, own = self.missed(at, target)
             slopes = np.concatenate([own, self._theirs(at, target)], axis=2)
-            ahead = np.einsum("nmk,nk->nm", slopes[:, :, self.n :], np.broadcast_to(along, goal.shape))
-            ahead += np.einsum("nmk,nk->nm", own[:, :, self.still[1:]], np.broadcast_to(along, goal.shape)[:, self.still[1:]])
-            tangent, across = _tangent(np.concatenate([own[:, :, self.free], ahead[:, :, None]], axis=2))
-            step = tangent * by[:, None] if k == 0 else -np.einsum("nkm,nm->nk", across, error)
+            ahead = np.einsum("nmk,nk->nm", slopes[:, :, self.n :], along)
+            ahead += np.einsum("nmk,nk->nm", own[:, :, self.still[1:]], along[:, self.still[1:]])
+            wide = np.concatenate([own[:, :, self.free], ahead[:, :, None]], axis=2)
+            back = wide.transpose(0, 2, 1)
+            step = tangents(wide)[0] * by[:, None] if k == 0 else -(back @ solved(wide @ back, error[:, :, None]))[:, :, 0]
             z[:, [*self.free, -1]] += step
             z[:, -1] = np.rint(z[:, -1] * SEGMENT) / SEGMENT
         z[:, self.free] = np.round(z[:, self.free] / UNIT) * UNIT
@@ -267,7 +212,7 @@ class Following:
                 error, slope = self.missed(self.moved(now), target)
                 if np.abs(error).max(initial=0.0) < _NEAR:
                     break
-                now[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+                now[:, self.free] -= np.clip(solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
             met = (np.abs(error) < _NEAR).all(axis=1) & ((now >= low) & (now <= high)).all(axis=1)
             met &= (np.abs(now - q[some]) < _JUMP).all(axis=1)
             q[some[met]], at[some[met]] = now[met], to[met]
@@ -278,123 +223,153 @@ class Following:
     # ---- kinematics --------------------------------------------------------------------------------------------
 
     def moved(self, q: Array) -> tuple[Array, Array, Array, Array]:
-        """Place and rotation of the tool, axes (N, n, 3), and how the place follows the joints (N, n, 3)."""
-        place, turn = np.zeros((len(q), 3)), np.tile(np.eye(3), (len(q), 1, 1))
-        axes, points = np.empty((2, len(q), self.n, 3))
-        sine, cosine = np.sin(q), np.cos(q)
+        """Place and rotation of the tool, axes that turn it (N, n, 3), and how the place follows the joints (N, n, 3)."""
+        count, sine, cosine = len(q), np.sin(q), np.cos(q)
+        place, turn = np.zeros((count, 3)), np.tile(np.eye(3), (count, 1, 1))
+        axes, points = np.empty((2, count, self.n, 3))
         for k in range(self.n):
-            place, turn = place + turn @ self.chain.origins[k], turn @ self.chain.rotations[k]
-            axes[:, k], points[:, k] = turn[:, :, 2], place
-            x, y = turn[:, :, 0] * cosine[:, [k]], turn[:, :, 1] * cosine[:, [k]]
-            turn = np.stack([x + turn[:, :, 1] * sine[:, [k]], y - turn[:, :, 0] * sine[:, [k]], turn[:, :, 2]], axis=2)
+            rows = turn.reshape(-1, 3)  # products of few large matrices are faster than of many small ones
+            place = place + (rows @ self.chain.origins[k]).reshape(count, 3)
+            x, y, z = (rows @ self.chain.rotations[k]).reshape(count, 3, 3).transpose(2, 0, 1)
+            axes[:, k], points[:, k] = z, place
+            s, c = sine[:, [k]], cosine[:, [k]]
+            if self.slides[k]:
+                place, s, c = place + z * q[:, [k]], np.zeros_like(s), np.ones_like(c)
+            turn = np.empty((count, 3, 3))
+            turn[:, :, 0], turn[:, :, 1], turn[:, :, 2] = c * x + s * y, c * y - s * x, z
         place = place + turn @ self.chain.origins[self.n]
-        return place, turn @ self.chain.rotations[self.n], axes, np.cross(axes, place[:, None] - points)
+        spin, along = axes * ~self.slides[:, None], axes * self.slides[:, None]
+        return place, turn @ self.chain.rotations[self.n], spin, np.cross(spin, place[:, None] - points) + along
 
     def missed(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
         """Error (N, m) and its slopes by the arm's joints (N, m, n)."""
         error, slope = at[0] - target[0], at[3].transpose(0, 2, 1)
-        if self.m > 3:
+        if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
-            error = np.concatenate([error, _axial(off)], axis=1)
-            slope = np.concatenate([slope, _onto(off) @ at[2].transpose(0, 2, 1)], axis=1)
-        return error[:, : self.m], slope[:, : self.m]
+            turned = (sideways(target) @ at[1][:, :, 2:])[:, :, 0] if self._pointing else axial(off)
+            error = np.concatenate([error, turned], axis=1)
+            turns = sideways(target) @ swept(at) if self._pointing else onto(off) @ at[2].transpose(0, 2, 1)
+            slope = np.concatenate([slope, turns], axis=1)
+        return error[:, self._rows], slope[:, self._rows]
+
+    def straight(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
+        """(N,) 1 + 2 cos of the angle by which tools are turned from what is wanted."""
+        if self._pointing:
+            return np.asarray(1 + 2 * np.einsum("ni,ni->n", at[1][:, :, 2], np.broadcast_to(target[1], at[1].shape)[:, :, 2]))
+        return np.asarray(np.einsum("nij,nij->n", at[1], np.broadcast_to(target[1], at[1].shape)))
 
     def _theirs(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
         """Slopes (N, m, n) by the healthy arm's joints."""
         slope = -target[3].transpose(0, 2, 1)
-        if self.m > 3:
+        if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
-            slope = np.concatenate([slope, -_onto(off) @ off @ target[2].transpose(0, 2, 1)], axis=1)
-        return slope[:, : self.m]
+            turns = sideways(target) @ swept(target) if self._pointing else onto(off) @ off @ target[2].transpose(0, 2, 1)
+            slope = np.concatenate([slope, -turns], axis=1)
+        return np.asarray(slope[:, self._rows])
 
     def _bent(self, at: tuple[Array, ...], target: tuple[Array, ...], d: Array) -> Array:
         """Second derivatives (N, m, c, c) along the columns of d."""
         n, ours, theirs = self.n, d[:, : self.n], d[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
-        both = _twice(at[2], at[3], ours) - _twice(target[2], target[3], theirs)
-        if self.m > 3:
+        both = twice(at[2], at[3], ours) - twice(target[2], target[3], theirs)
+        if self._pointing:
+            turns = (twice(x[2], swept(x).transpose(0, 2, 1), moves) for x, moves in ((at, ours), (target, theirs)))
+            rows = np.einsum("nri,nicd->nrcd", sideways(target), next(turns) - next(turns))
+            both = np.concatenate([both, rows], axis=1)
+        elif self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
             axes = np.concatenate([at[2], -(off[:, None] @ target[2][..., None])[..., 0][:, ::-1]], axis=1)
             moves = np.concatenate([ours, theirs[:, ::-1]], axis=1)
             before = np.cumsum(axes[:, :, None] * moves[..., None], axis=1)  # (N, 2n, c, 3)
             last = before - axes[:, :, None] * moves[..., None] / 2  # a joint with itself counts half
             turned = np.cross(axes[:, :, None, :], off.transpose(0, 2, 1)[:, None])  # rows: z x each column of off
-            later = _onto(turned.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(len(off), 2 * n, 3, 3)
+            later = onto(turned.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(len(off), 2 * n, 3, 3)
             half = np.einsum("nkri,nkai,nkb->nrab", later, last, moves, optimize=True)
             both = np.concatenate([both, half + half.transpose(0, 1, 3, 2)], axis=1)
-        return both[:, : self.m]
+        return np.asarray(both[:, self._rows])
 
     # ---- bounds ------------------------------------------------------------------------------------------------
 
-    def _third(self, far: Array) -> Array:
-        """(N, m) what is left behind the second order."""
-        ours, theirs = np.cumsum(far[:, : self.n], axis=1), np.cumsum(far[:, self.n :], axis=1)
-        place = ((ours**3 + theirs**3) * self.chain.lengths).sum(axis=1) / 6
-        turn = far.sum(axis=1) ** 3 / 6
+    def _third(self, far: Array, out: Array) -> Array:
+        """(N, m) what is left behind the second order; ``out`` (N, 2n): how far slides are."""
+        place, slid = np.zeros(len(far)), far * (1 - self._turns)
+        for chain in (slice(0, self.n), slice(self.n, None)):
+            c, most = np.cumsum((far * self._turns)[:, chain], axis=1), self.chain.lengths + (out + slid)[:, chain]
+            place += (c**3 * most + 3 * c**2 * slid[:, chain]).sum(axis=1) / 6
+        turn = (far @ self._turns) ** 3 / 6
         return np.stack([place] * self._linear + [turn] * (self.m - self._linear), axis=1)
 
-    def _excess(self, error: Array, reach: Array, left: Array, second: Array, half: Array, bend: Array) -> tuple[Array, ...]:
-        """How far the error may be from the section, how far joints go, and by how much they turn the tool."""
-        far = (reach @ half[:, :, None])[:, :, 0]
-        rest = self._third(far) + (left @ half[:, :, None])[:, :, 0]
-        rest += np.einsum("nacd,nc,nd->na", np.abs(second) * bend, half, half, optimize=True) / 2
-        own = np.einsum("nacc->nac", second)
-        high, low = (rest + (np.maximum(x, 0) @ (half**2)[:, :, None])[:, :, 0] / 2 for x in (own, -own))
-        return np.maximum(error + high, low - error), far[:, : self.n], far.sum(axis=1)
+    def _closed(self, given: _Bounds, half: Array) -> tuple[Flags, Array, Array]:
+        """Whether section boxes, put into half, are mapped into themselves; how far joints go then, and turn the tool."""
+        count, s = len(half), half[:, -self.m :]
+        closed, far, angle = np.zeros(count, dtype=bool), np.full((count, 2 * self.n), _NEVER), np.full(count, _NEVER)
+        rows = np.arange(count)
+        for k in range(_ROUNDS + _TIGHTER):
+            if not rows.size and k < _ROUNDS:  # each is closed, or never will be
+                continue
+            rows = np.flatnonzero(closed) if k >= _ROUNDS else rows
+            e, far[rows], angle[rows] = self._excess(given.take(rows), half[rows])
+            done = (_MARGIN * e + _LEAST <= s[rows]).all(axis=1) & (s[rows] < 1).all(axis=1)
+            closed[rows] = done
+            if k < _ROUNDS:
+                rows = rows[~done]
+                s[rows] = np.clip(np.nan_to_num(1.05 * e[~done] + 2 * _LEAST, nan=_NEVER), 0, _NEVER)
+                rows = rows[(s[rows] < 1).all(axis=1)]
+            else:
+                s[rows] = _MARGIN * e + 1.01 * _LEAST
+        return closed, far[:, : self.n], angle
 
-    def _slopes(self, reach: Array, left: Array, second: Array, half: Array) -> Array:
+    def _excess(self, given: _Bounds, half: Array) -> tuple[Array, Array, Array]:
+        """How far the error may be from the section, how far joints go, and by how much they turn the tool."""
+        far, square = (given.reach @ half[:, :, None])[:, :, 0], half**2
+        rest = self._third(far, given.out) + (given.left @ half[:, :, None])[:, :, 0]
+        mixed = ((given.second @ half[:, None, :, None])[..., 0] * half[:, None]).sum(axis=2)
+        rest += (mixed - (np.abs(given.own) @ square[:, :, None])[:, :, 0]) / 2
+        high, low = (rest + (np.maximum(x, 0) @ square[:, :, None])[:, :, 0] / 2 for x in (given.own, -given.own))
+        return np.maximum(given.error + high, low - given.error), far, far @ self._turns
+
+    def _slopes(self, given: _Bounds, half: Array) -> Array:
         """(N, m, 1 + m) above the slopes of the error less the section by the path and by the section."""
         last = [1, *range(half.shape[1] - self.m, half.shape[1])]
-        far = (reach @ half[:, :, None])[:, :, 0]
-        slope = left[:, :, last] + np.einsum("nabc,nc->nab", np.abs(second[:, :, last]), half)
-        turn = np.zeros((len(half), 1 + self.m))
+        far = (given.reach @ half[:, :, None])[:, :, 0]
+        slope = given.left[:, :, last] + (given.second @ half[:, None, :, None])[:, :, last, 0]
+        turn, slid = np.zeros((len(half), 1 + self.m)), far * (1 - self._turns)
+        by = given.reach[:, :, last]
         for chain in (slice(0, self.n), slice(self.n, None)):
-            sums, own = np.cumsum(far[:, chain], axis=1), np.cumsum(reach[:, chain][:, :, last], axis=1)
-            slope[:, : self._linear] += (np.einsum("k,nkb,nk->nb", self.chain.lengths, own, sums**2) / 2)[:, None]
+            turns = self._turns[chain]
+            c, own = np.cumsum(far[:, chain] * turns, axis=1), np.cumsum(by[:, chain] * turns[:, None], axis=1)
+            most = (self.chain.lengths + (given.out + slid)[:, chain]) * c**2 + 2 * c * slid[:, chain]
+            slope[:, : self._linear] += (most[:, None] @ own + (c**2 * (1 - turns))[:, None] @ by[:, chain]) / 2
             turn += own[:, -1]
-        slope[:, self._linear :] += (turn * far.sum(axis=1)[:, None] ** 2 / 2)[:, None]
+        slope[:, self._linear :] += (turn * (far @ self._turns)[:, None] ** 2 / 2)[:, None]
         return np.asarray(slope)
 
-    def _contracts(self, reach: Array, left: Array, second: Array, half: Array, wide: Array) -> Flags:
+    def _contracts(self, given: _Bounds, half: Array, wide: Array) -> Flags:
         """Whether there is at most one solution in section boxes (N, m)."""
-        slope = self._slopes(reach, left, second, np.concatenate([half[:, : -self.m], wide], axis=1))[:, :, 1:]
+        slope = self._slopes(given, np.concatenate([half[:, : -self.m], wide], axis=1))[:, :, 1:]
         return np.asarray((_MARGIN * (slope @ wide[:, :, None])[:, :, 0] < 0.998 * wide).all(axis=1))
 
-    def _forward(self, reach: Array, left: Array, second: Array, half: Array, own: Array, place: Array) -> Flags:
+    def _forward(self, given: _Bounds, half: Array, own: Array, place: Array) -> Flags:
         """Whether turned cells only go forward on the path, and end within the segment, ``place`` (N,) from the end of that."""
-        slope = self._slopes(reach, left, second, half)
-        moves = _solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
+        slope = self._slopes(given, half)
+        moves = solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
         slower = (np.abs(own[:, -1, -self.m :]) * moves).sum(axis=1)
         off = (np.abs(own[:, -1]) * half).sum(axis=1)
         fine = (moves >= 0).all(axis=1) & (_MARGIN * slower < own[:, -1, 1])
         return np.asarray(fine & (place + _MARGIN * off < 0))
 
 
-def _tangent(wide: Array) -> tuple[Array, Array]:
-    """Unit vectors (N, m + 1) that matrices (N, m, m + 1) take to 0, the last number positive, and pseudo-inverses."""
-    tangent = np.linalg.svd(wide)[2][:, -1]
-    return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(np.linalg.pinv(wide))
+@dataclass(frozen=True, eq=False)
+class _Bounds:
+    """Of cells: errors; sizes of what joints follow, of what is left of slopes, of second derivatives; their own; slides."""
 
+    error: Array
+    reach: Array
+    left: Array
+    second: Array
+    own: Array
+    out: Array
 
-def _twice(axes: Array, columns: Array, moves: Array) -> Array:
-    """(N, 3, c, c) second derivatives of a place along the columns of moves (N, n, c)."""
-    steps = axes[:, :, None] * moves[..., None]
-    last = np.cumsum(steps, axis=1) - steps / 2
-    half = np.cross(last[:, :, :, None], (columns[:, :, None] * moves[..., None])[:, :, None]).sum(axis=1)
-    return np.asarray((half + half.transpose(0, 2, 1, 3)).transpose(0, 3, 1, 2))
-
-
-def _axial(turn: Array) -> Array:
-    """(N, 3) the axial vectors of rotations."""
-    twice = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1)
-    return np.asarray(twice / 2)
-
-
-def _onto(turn: Array) -> Array:
-    """(N, 3, 3) what takes a to the axial vector of [a] R."""
-    return np.asarray((np.trace(turn, axis1=1, axis2=2)[:, None, None] * np.eye(3) - turn) / 2)
-
-
-def _solved(matrix: Array, right: Array) -> Array:
-    """With a matrix that is nearly singular, something large."""
-    return np.asarray(np.linalg.solve(matrix + 1e-14 * np.eye(matrix.shape[-1]), right))
+    def take(self, rows: Ints) -> _Bounds:
+        """Of some of them."""
+        return _Bounds(*(getattr(self, field.name)[rows] for field in fields(self)))

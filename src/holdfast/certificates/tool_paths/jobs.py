@@ -17,10 +17,12 @@ from numpy.typing import NDArray
 from holdfast.certificates.claims import ROWS
 from holdfast.certificates.crew import Stop
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tool_paths.cells import SEGMENT
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.forms import SEGMENT, Following
-from holdfast.certificates.tool_paths.march import March, Slab
+from holdfast.certificates.tool_paths.forms import Following
+from holdfast.certificates.tool_paths.march import March
 from holdfast.certificates.tool_paths.rings import Never, rings_of
+from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.tree import SearchState
 from holdfast.engine.memory import Parts
 
@@ -174,10 +176,13 @@ class Running:
 
     def __init__(self, job: Job) -> None:
         self.job, self.finished, self._seconds = job, False, 0.0
-        claim, rows = job.claim, ROWS[job.claim.task]
-        tube = np.repeat(claim.tube, [min(3, rows), max(0, rows - 3)]) if claim.tube.any() else np.empty(0)
+        claim = job.claim
+        tube = claim.tube[[int(row > 2) for row in ROWS[claim.task]]] if claim.tube.any() else np.empty(0)
         limits = np.column_stack([claim.arm.lower, claim.arm.upper])
-        following = Following(Chain.of(claim.arm), claim.knots, rows, [job.joint, *job.followers], tube, limits)
+        following = Following(
+            Chain.of(claim.arm), claim.knots, claim.task, still=[job.joint, *job.followers], tube=tube, limits=limits,
+            slides=claim.arm.prismatic,
+        )  # fmt: skip
         self._march = March(following, job.slabs, job.halvings, job.most, rings_of(claim, job.joint))
 
     def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:

@@ -88,8 +88,8 @@ class PathProof(InParts):
 
 def proved(claim: PathClaim, halvings: int, effort: Effort) -> PathProof:
     """As much of a claim as can be proved."""
-    rows, whole = ROWS[claim.task], claim.during[1] - claim.during[0]
-    jobs = [Job.whole(claim, joint, _followers(claim, joint, rows), halvings) for joint in claim.locks]
+    whole = claim.during[1] - claim.during[0]
+    jobs = [Job.whole(claim, joint, _followers(claim, joint), halvings) for joint in claim.locks]
     parts = tuple(
         LockedPath(
             joint=job.joint, followers=job.followers, slabs=tuple(found.slabs),
@@ -103,12 +103,17 @@ def proved(claim: PathClaim, halvings: int, effort: Effort) -> PathProof:
     return PathProof(claim=claim, parts=parts, document=documents.path(claim, parts))
 
 
-def _followers(claim: PathClaim, joint: int, rows: int) -> tuple[int, ...]:
+def _followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
     """Which joints go on with the healthy motion after a lock: such that the others are farthest from singular on it."""
+    rows = ROWS[claim.task]
     others = [k for k in range(claim.arm.n) if k != joint]
-    if len(others) == rows:
+    if len(others) == len(rows):
         return ()
-    slopes = claim.arm.jacobian(claim.knots)[:, :rows]
-    choices = list(combinations(others, len(others) - rows))
+    slopes = claim.arm.jacobian(claim.knots)
+    if claim.task == "pointing":  # turns about the tool's own axes
+        tools = claim.arm.forward_kinematics(claim.knots)[:, :3, :3]
+        slopes = np.concatenate([slopes[:, :3], tools.transpose(0, 2, 1) @ slopes[:, 3:]], axis=1)
+    slopes = slopes[:, rows]
+    choices = list(combinations(others, len(others) - len(rows)))
     least = [np.linalg.svd(np.delete(slopes, [joint, *left], axis=2), compute_uv=False)[:, -1].min() for left in choices]
     return choices[int(np.argmax(least))]

@@ -13,12 +13,12 @@ from itertools import combinations_with_replacement
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.claims import ROWS
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index
 from holdfast.certificates.joint_boxes.segments import Segment, points_on_axes
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.tool_paths.cells import SEGMENT, Ints
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.forms import SEGMENT, Following, Ints
+from holdfast.certificates.tool_paths.forms import Following
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -126,9 +126,9 @@ class Rings:
             if counts.any():
                 found.append((int(counts.sum()), counts.tobytes(), (i, j)))
         pairs, seen = list[tuple[int, int]](), list[bytes]()
-        for _, counts, pair in sorted(found, key=lambda one: (one[0], one[1])):
-            if seen.count(counts) < _ALIKE and len(pairs) < _MOST:
-                seen.append(counts)
+        for _, which, pair in sorted(found, key=lambda one: (one[0], one[1])):
+            if seen.count(which) < _ALIKE and len(pairs) < _MOST:
+                seen.append(which)
                 pairs.append(pair)
         return points, pairs
 
@@ -175,8 +175,8 @@ class Rings:
         q[:, f.free] -= 2 * np.pi * np.round((q - (low + high) / 2) / (2 * np.pi))[:, f.free]
         at_last = f.moved(q)
         good = (np.abs(f.missed(at_last, target)[0]) < _MET).all(axis=1) & ((q >= low) & (q <= high))[:, f.free].all(axis=1)
-        if f.m > 3:
-            good &= np.einsum("nij,nij->n", at_last[1], np.broadcast_to(target[1], at_last[1].shape)) > 0
+        if f.rotated:
+            good &= f.straight(at_last, target) > 1
         return np.asarray(good.reshape(count, -1).any(axis=1))
 
     def _tree(self, begin: int, stop: int, at: int) -> tuple[Halving, bool]:
@@ -189,12 +189,13 @@ class Rings:
 
 
 def rings_of(claim: PathClaim, joint: int) -> Rings | None:
-    """What refutes lock instants of a joint; None of an arm that leaves the plane of its task."""
+    """What refutes lock instants of a joint; None of an arm with slides, or that leaves the plane of its task."""
     chain, limits = Chain.of(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
-    flat = claim.task == "planar"
-    if flat and not (np.abs(chain.rotations[:, 2, 2]) == 1).all():
+    flat = claim.task.startswith("planar")
+    if claim.arm.prismatic.any() or (flat and not (np.abs(chain.rotations[:, 2, 2]) == 1).all()):
         return None
-    return Rings(Following(chain, claim.knots, ROWS[claim.task], [joint], np.empty(0), limits), claim.task == "pose", flat)
+    arm = Following(chain, claim.knots, claim.task, still=[joint], tube=np.empty(0), limits=limits, slides=claim.arm.prismatic)
+    return Rings(arm, "pose" in claim.task, flat)
 
 
 class _Test:

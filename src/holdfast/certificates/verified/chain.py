@@ -28,6 +28,13 @@ def turned(exact: Fraction) -> list[float]:
     return [float(exact), 2.0**-52 * abs(float(exact)), 0.0, float(sine), float(cosine)]
 
 
+def exactly(values: Array) -> Array:
+    """What :func:`turned` gives of doubles below 2^7, which are the numbers themselves (N, 5)."""
+    made = np.zeros((len(values), 5))
+    made[:, 0], made[:, 3:] = values, [[float(x) for x in flint.arb(value).sin_cos()] for value in values.tolist()]
+    return made
+
+
 def about(axis: int, given: Array) -> Balls:
     """The rotations about a coordinate axis by what :func:`turned` gave, (N, 5)."""
     i, j, made = (axis + 1) % 3, (axis + 2) % 3, np.zeros((len(given), 3, 3))

@@ -20,16 +20,17 @@ by: its place, and the axial part of its rotation, which below half a turn says 
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .balls import LEAST, UP, Balls, above, crossed, either, flint, joined, stacked, times
-from .chain import Chain
+from .balls import LEAST, UP, Balls, either, flint, joined, times
+from .chain import Chain, exactly, turned
 from .forms import real
 from .paths import ROWS, SEGMENT, UNIT, Ints, Slab
-from .rows import mirrored, point_derivatives, under
+from .rows import MOST_TURNED, STRAIGHT, Rows
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -44,11 +45,15 @@ class Faults:
     def __init__(self, document: dict[str, Any]) -> None:
         self._given, self.n = {key: value for key, value in document.items() if key != "locks"}, len(document["arm"]["joints"])
         self._given["locks"] = [lock | {"cells": "", "centres": ""} for lock in document["locks"]]
-        self.rows = ROWS[document["task"]]
-        self.m, self.linear = len(self.rows), min(3, len(self.rows))
-        chain = Chain(document["arm"], flat=False)
-        self.origins, self.turns, self.lengths = chain.origins, chain.turns, chain.lengths(0, self.n)
+        self.rows = Rows({"task": document["task"], "target": {"axes": ROWS[document["task"]], "orientation": None}})
+        self.m, self.linear, self.chain = (
+            self.rows.m,
+            self.rows.linear,
+            Chain(document["arm"], document["task"] == "planar-pose"),
+        )
+        self.lengths, self._known = self.chain.lengths(0, self.n), dict[tuple[int, int], Array]()
         self.knots = np.array([[real(x) for x in knot] for knot in document["knots"]])
+        self._exact = [[Fraction(x) for x in knot] for knot in self.knots.tolist()]
         self.limits = np.array([[real(x) for x in pair] for pair in document["limits"]])
         metres, radians = (real(x) for x in document["tube"])
         self.tube = np.array([metres] * self.linear + [radians] * (self.m - self.linear)) if metres or radians else np.empty(0)
@@ -57,59 +62,19 @@ class Faults:
     def __reduce__(self) -> tuple[Any, ...]:  # to another process
         return Faults, (self._given,)
 
-    def healthy(self, middles: Ints, ends: Ints) -> tuple[Balls, Balls]:
-        """Joints of the healthy motion at middles (twice the instants), and their rates over the segments of ends."""
-        segment = (ends - 1) // SEGMENT
-        before, after = Balls(self.knots[segment]), Balls(self.knots[segment + 1])
-        rates, part = after + -before, middles / (2 * SEGMENT) - segment  # exact: 15 and 21 binary places
-        return before + times("nj,n->nj", rates, Balls(part)), rates
+    def healthy(self, middles: Ints, ends: Ints) -> tuple[Array, Balls]:
+        """Joints of the healthy motion at middles (twice the instants), as :func:`turned` has them (n, N, 5), and their rates.
 
-    def turned(self, q: Balls) -> tuple[Array, Array, float]:
-        """Sines and cosines, and how far off they are at most."""
-        sines, cosines, off = np.zeros(q.at.shape), np.zeros(q.at.shape), 0.0
-        for index, value in np.ndenumerate(q.at):
-            sine, cosine = flint.arb(float(value), float(q.off[index])).sin_cos()
-            sines[index], cosines[index] = float(sine.mid()), float(cosine.mid())
-            off = max(off, above(sine.rad()), above(cosine.rad()))
-        return sines, cosines, off * UP + 2.0**-52
-
-    def moved(self, q: Balls) -> tuple[Balls, Balls, Balls, Balls]:
-        """Place and rotation of the tool, the joints' axes, and the derivatives of the place by the joints."""
-        count, (sines, cosines, off) = len(q.at), self.turned(q)
-        tip, turn = Balls(np.zeros((count, 3))), Balls(np.broadcast_to(np.eye(3), (count, 3, 3)))
-        axes, places = [], []
-        for k in range(self.n):
-            tip, turn = tip + times("nij,j->ni", turn, Balls(self.origins[k])), times("nij,jk->nik", turn, self.turns[k])
-            axes.append(turn[:, :, 2])
-            places.append(tip)
-            about = np.zeros((count, 3, 3))
-            about[:, 0, 0] = about[:, 1, 1] = cosines[:, k]
-            about[:, 1, 0], about[:, 0, 1], about[:, 2, 2] = sines[:, k], -sines[:, k], 1
-            turn = times("nij,njk->nik", turn, Balls(about, off))
-        tip += times("nij,j->ni", turn, Balls(self.origins[-1]))
-        z = stacked(axes, 1)
-        columns = times("nkij,nkj->nki", crossed(z), tip[:, None] + -stacked(places, 1))
-        return tip, times("nij,jk->nik", turn, self.turns[-1]), z, columns
-
-    def expanded(self, q: Balls, healthy: Balls) -> tuple[Balls, Balls, Balls]:
-        """Error (N, m), its derivatives (N, m, 2n) by joints of the arm, then of the healthy one backwards, and second ones."""
-        tip, turn, z, columns = self.moved(q)
-        goal, wanted, axes, slopes = self.moved(healthy)
-        error, first = tip + -goal, _beside(columns, -slopes[:, ::-1])
-        second = _blocks(point_derivatives(z, columns)[1], -point_derivatives(axes, slopes)[1][:, :, ::-1, ::-1])
-        if self.m > 3:
-            off = times("nij,nkj->nik", turn, wanted)
-            back = -times("nij,nkj->nki", off, axes)[:, ::-1]
-            every = Balls(np.concatenate([z.at, back.at], 1), np.concatenate([z.off, back.off], 1))
-            vee = stacked([(off[:, 2, 1] + -off[:, 1, 2]), off[:, 0, 2] + -off[:, 2, 0], off[:, 1, 0] + -off[:, 0, 1]], 1)
-            straight = np.trace(off.at, axis1=1, axis2=2) - np.trace(off.off, axis1=1, axis2=2) > 2.9
-            error = joined(error, Balls(np.where(straight[:, None], vee.at / 2, np.nan), vee.off / 2))
-            first = under(first, times("nri,nji->nrj", _axial(off[:, None])[:, 0], every))
-            # The second derivative by a and a later b is vee [a][b] E.
-            later = _axial(times("nkij,njl->nkil", crossed(every), off))
-            twice = times("nkri,nji->nrjk", later, every)
-            second = under(second, mirrored(twice))
-        return error[:, : self.m], first[:, : self.m], second[:, : self.m]
+        Rates are those over the segments of ends.
+        """
+        segment, found = (ends - 1) // SEGMENT, []
+        for key in zip(segment.tolist(), middles.tolist(), strict=True):
+            if key not in self._known:
+                part = Fraction(key[1], 2 * SEGMENT) - key[0]
+                pairs = zip(*self._exact[key[0] : key[0] + 2], strict=True)
+                self._known[key] = np.array([turned(before + (after - before) * part) for before, after in pairs])
+            found.append(self._known[key])
+        return np.array(found).transpose(1, 0, 2), Balls(self.knots[segment + 1]) + -Balls(self.knots[segment])
 
     def section(self, slope: Array, rates: tuple[Balls, Balls], still: list[int], turned: Flags) -> tuple[Balls, Balls]:
         """D (N, 2n, 2 + tube + m), and how free joints, then the place on the path follow its columns (N, f + 1, ...).
@@ -151,12 +116,16 @@ class Faults:
         last = [1, *range(half.shape[1] - self.m, half.shape[1])]
         far = np.einsum("nkc,nc->nk", parts["reach"], half) * UP
         slope = parts["slope"][:, :, last] + np.einsum("nabk,nk->nab", parts["second"][:, :, last], half)
-        turned = np.zeros(slope[:, 0].shape)
-        for chain in (slice(0, self.n), slice(None, self.n - 1, -1)):
-            c, own = (np.cumsum(x, axis=1) * UP for x in (far[:, chain], parts["reach"][:, chain][:, :, last]))
-            slope[:, : self.linear] += (np.einsum("k,nkb,nk->nb", self.lengths, own, c**2) / 2)[:, None]
+        turned, slides = np.zeros(slope[:, 0].shape), self.chain.slides
+        for chain, out in zip((slice(0, self.n), slice(None, self.n - 1, -1)), parts["out"].transpose(1, 0, 2), strict=True):
+            way, by = far[:, chain], parts["reach"][:, chain][:, :, last]
+            c, own = np.cumsum(way * ~slides, axis=1) * UP, np.cumsum(by * ~slides[:, None], axis=1) * UP
+            slid = way * slides
+            most = (self.lengths + abs(out) * slides + slid) * c**2 + 2 * c * slid
+            third = np.einsum("nk,nkb->nb", most, own) + np.einsum("nk,nkb->nb", c**2, by * slides[:, None])
+            slope[:, : self.linear] += third[:, None] / 2
             turned += own[:, -1]
-        slope[:, self.linear :] += (turned * (far.sum(axis=1) ** 2)[:, None] / 2)[:, None]
+        slope[:, self.linear :] += (turned * (far @ ~np.tile(slides, 2))[:, None] ** 2 / 2)[:, None]
         return np.asarray(slope * UP * UP + LEAST)
 
     def contracts(self, parts: dict[str, Array], w: Array, s: Array) -> Flags:
@@ -181,9 +150,9 @@ class Faults:
     def excess(self, parts: dict[str, Array], w: Array) -> tuple[Array, Array, Array]:
         """e(S), how far joints go, and by how much they turn the tool; rounded up."""
         far = np.einsum("nkc,nc->nk", parts["reach"], w) * UP
-        ours, theirs = (np.cumsum(x, axis=1) * UP for x in (far[:, : self.n], far[:, : self.n - 1 : -1]))
-        angle = (ours[:, -1] + theirs[:, -1]) * UP
-        third = ((ours**3 + theirs**3) * self.lengths).sum(axis=1) / 6
+        ways = zip((far[:, : self.n], far[:, : self.n - 1 : -1]), parts["out"].transpose(1, 0, 2), strict=True)
+        (ours, turned), (theirs, moved) = (self.chain.third(way, self.lengths, out) for way, out in ways)
+        third, angle = ours + theirs, (turned + moved) * UP
         rest = np.stack([third] * self.linear + [angle**3 / 6] * (self.m - self.linear), axis=1)
         rest += np.einsum("nac,nc->na", parts["slope"], w) + np.einsum("nacd,nc,nd->na", parts["mixed"], w, w)
         high, low = ((rest + np.einsum("nac,nc->na", parts[key], w**2) / 2) * UP for key in ("up", "down"))
@@ -199,11 +168,12 @@ class Faults:
         first, turned = np.concatenate([np.arange(count) == 0 for count in counts]), width > 0
         locked, rate = self.healthy(begin + stop, stop)
         healthy, along = self.healthy(starts + ends, ends)
-        at, off = np.concatenate([rows for *_, rows in batch]) * UNIT, np.zeros((len(ends), self.n))
-        at[:, still[0]], off[:, still[0]] = locked.at[:, still[0]], locked.off[:, still[0]]
-        at[:, still[1:]], off[:, still[1:]] = healthy.at[:, still[1:]], healthy.off[:, still[1:]]
-        q = Balls(at, off)
-        error, slopes, twice = self.expanded(q, healthy)
+        joints = np.array([exactly(values) for values in (np.concatenate([rows for *_, rows in batch]) * UNIT).T])
+        joints[still[0]], joints[still[1:]] = locked[still[0]], healthy[still[1:]]
+        error, slopes, twice = self.rows.between(self.chain.moved(list(joints)), self.chain.moved(list(healthy)))
+        straight = error.low[:, -1] > STRAIGHT if self.rows.rotated else True
+        error, slopes, twice = (x[:, :m] for x in (error, slopes, twice))
+        q = _values(joints)
         d, own = self.section(slopes.at, (rate, along), still, turned)
         ones = np.zeros((len(ends), m, 2 + tube + m))
         ones[:, :, 2 + tube :] = -np.eye(m)
@@ -215,6 +185,7 @@ class Faults:
             "slope": (times("nak,nkc->nac", slopes, d) + Balls(ones)).size, "second": second.size, "reach": d.size,
             "mixed": np.triu(second.size, 1), "up": np.maximum(bent[0] + bent[1], 0) * UP,
             "down": np.maximum(bent[1] - bent[0], 0) * UP,
+            "out": np.stack([joints[:, :, 0].T, healthy[:, :, 0].T], 1),
         }  # fmt: skip
         w = np.zeros((len(ends), 2 + tube + m))
         w[:, 0], w[:, 2 : 2 + tube] = (stop - begin) / (2 * SEGMENT), self.tube
@@ -232,13 +203,13 @@ class Faults:
             wide = np.where(unique[:, None], t, wide)
         low, high = np.nextafter(q.at - far[:, : self.n], -np.inf), np.nextafter(q.at + far[:, : self.n], np.inf)
         inside = ((low >= self.limits[:, 0]) & (high <= self.limits[:, 1]))[:, free].all(axis=1)
-        good = closed & unique & inside & (angle < 1.2)
+        good = closed & unique & inside & straight & ((angle < MOST_TURNED) | (not self.rows.rotated))
         middle = (starts + ends) / (2 * SEGMENT)
         if turned.any():
             some = {key: part[turned] for key, part in parts.items()}
             good[turned] &= self.forward(some, w[turned], own[turned], (middle - (ends - 1) // SEGMENT - 1)[turned])
         here, each = joined(q[:, free], Balls(middle[:, None])), Balls(np.ones((len(ends), 1)))
-        lock = joined(locked[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))), joined(rate[:, free], each)
+        lock = joined(_values(locked)[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))), joined(rate[:, free], each)
         good &= self.glued(here, own, w, wide, lock, first, turned)
         return np.split(good, np.cumsum(counts)[:-1])
 
@@ -288,23 +259,6 @@ def _before(x: Balls) -> Balls:
     return Balls(np.roll(x.at, 1, axis=0), np.roll(x.off, 1, axis=0))
 
 
-def _blocks(a: Balls, b: Balls) -> Balls:
-    """Two blocks on the diagonal."""
-    n = a.at.shape[-1]
-    made = [np.zeros((*a.at.shape[:2], 2 * n, 2 * n)) for _ in range(2)]
-    for whole, one, other in ((made[0], a.at, b.at), (made[1], a.off, b.off)):
-        whole[:, :, :n, :n], whole[:, :, n:, n:] = one, other
-    return Balls(*made)
-
-
-def _beside(a: Balls, b: Balls) -> Balls:
-    """(N, 3, 2n) of columns (N, n, 3) of both."""
-    at, off = (np.concatenate([x, y], axis=1).transpose(0, 2, 1) for x, y in ((a.at, b.at), (a.off, b.off)))
-    return Balls(at, off)
-
-
-def _axial(x: Balls) -> Balls:
-    """(N, k, 3, 3) the matrices that take a to vee([a] x), where vee x is the axial vector of (x - x')/2."""
-    trace = times("nkij,ij->nk", x, Balls(np.eye(3)))
-    whole = times("nk,ij->nkij", trace, Balls(np.eye(3))) + -x
-    return Balls(whole.at / 2, whole.off / 2)
+def _values(joints: Array) -> Balls:
+    """(N, n) of joints as :func:`turned` has them (n, N, 5)."""
+    return Balls(joints[:, :, 0].T, joints[:, :, 1].T)

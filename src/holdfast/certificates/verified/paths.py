@@ -20,7 +20,8 @@ Slab = tuple[int, tuple[int, int], Ints, Ints]  # the lock; its ends; of its cel
 Never = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
 
 SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
-ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+ROWS = {"planar": "xy", "planar-pose": "xya", "position": "xyz", "pointing": "xyz", "pose": "xyz"}  # axes of a target of each
+FREE = {"planar": 2, "planar-pose": 3, "position": 3, "pointing": 5, "pose": 6}  # joints that the rows of each take
 MOST_SEGMENTS, MOST_CELLS, MOST_TURNING = 1 << 14, 1 << 24, 32
 SHARE = r"\d{1,60}/[1-9]\d{0,60}"
 
@@ -30,12 +31,11 @@ def check(document: dict[str, Any]) -> None:
     joints, task = document["arm"]["joints"], document["task"]
     knots, n = document.get("knots"), len(joints)
     need(task in ROWS and n <= MOST_TURNING, f"paths are of {', '.join(ROWS)}, and of {MOST_TURNING} joints at most")
-    need(all(joint["type"] == "revolute" for joint in joints), "paths are of joints that turn")
     count, points = len(knots) - 1 if isinstance(knots, list) else 0, document.get("points")
     need(1 <= count <= MOST_SEGMENTS, f"there must be from 1 to {MOST_SEGMENTS} segments")
     lock = {
         "joint": range(n),
-        "followers": [range(n), n - 1 - len(ROWS[task])],
+        "followers": [range(n), n - 1 - FREE[task]],
         "cells": TEXT,
         "centres": TEXT,
         "proved": SHARE,
@@ -56,8 +56,9 @@ def check(document: dict[str, Any]) -> None:
     within(document["limits"], [joint["limits"] for joint in joints], "limits")
     for knot in knots or ():
         within([[x, x] for x in knot], document["limits"], "a knot")
-        need(all(abs(real(x)) < 7 for x in knot), "a knot turns by more than 7 rad")
+        need(all(abs(real(x)) < 7 for x in knot), "a joint of a knot is beyond 7 rad or m")
     need(all(0 <= real(x) <= 0.1 for x in document["tube"]), "a tube is from 0 to 0.1 m and rad")
+    need(task != "pointing" or not any(map(real, document["tube"])), "there is no tube around a pointing path")
     need(len(document["pairs"]) <= SPLIT, f"there are more than {SPLIT} pairs of points")
     need(document["during"][0] < document["during"][1], "during must not be empty")
     locked = [lock["joint"] for lock in document["locks"]]
@@ -80,7 +81,7 @@ def sentence(document: dict[str, Any]) -> str:
     said += f"where it is, one continuous motion within the limits ({spans(names, document['limits'])}) begins there with that "
     said += f"joint at rest and takes the tool along the rest of the {document['task']} path"
     if metres or radians:
-        off = f" and {radians!r} rad" if len(ROWS[document["task"]]) == 6 else ""
+        off = f" and {radians!r} rad" if "pose" in document["task"] else ""
         said += f", or along any continuous path that is within {metres!r} m{off} of it and begins on it"
     return f"{said}; angles in rad, arm {document['arm_digest'][:12]}."
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from .balls import LEAST, UP, Balls, flint, times
 from .boxes import Boxes
-from .chain import Array, turned
+from .chain import Array, exactly, turned
 from .forms import UNIT, real
 from .rows import MOST_TURNED, STRAIGHT, Rows
 from .tree import Cell
@@ -40,11 +40,7 @@ class Leaves(Boxes):
     def placed(self, chunk: list[tuple[Cell, Any]]) -> tuple[list[Array], list[Array]]:
         """The joints at the centres, and the axes of the cells, as :func:`turned` gives them."""
         axes = [self.middles(a, [cell for cell, _ in chunk]) for a in range(len(self.width))]
-        joints = np.zeros((self.n, len(chunk), 5))
-        joints[:, :, 0] = (np.array([counts for _, counts in chunk]) * UNIT).T
-        for k in self.free:
-            for row, value in zip(joints[k], joints[k, :, 0].tolist(), strict=True):
-                row[3:] = [float(x) for x in flint.arb(value).sin_cos()]  # of an exact number below 2^7: 2^-52 off at most
+        joints = np.array([exactly(values) for values in (np.array([counts for _, counts in chunk]) * UNIT).T])
         for k in self.still:
             joints[k] = turned(Fraction(self.limits[k, 0]))
         if self.locked >= 0:

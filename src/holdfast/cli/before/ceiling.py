@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
 import typer
 
 import holdfast as hf
@@ -12,7 +13,11 @@ from holdfast.cli.options import JsonOption, SeedOption
 from holdfast.cli.progress import working
 from holdfast.errors import InputError
 from holdfast.grammar import TASKS
-from holdfast.present.results import printed
+from holdfast.present.printing import console, print_written
+from holdfast.present.results import printed, printed_each
+
+if TYPE_CHECKING:
+    from holdfast.result import Result
 
 
 def command(
@@ -28,7 +33,10 @@ def command(
         float | None, typer.Option("--search", help="Seconds to search for a better null space.", show_default=False)
     ] = None,
     arm: Annotated[
-        Path | None, typer.Option("--arm", help="Write a revolute arm that attains the best known value.", show_default=False)
+        Path | None,
+        typer.Option(
+            "--arm", help="Write a revolute arm that attains the best known value, or what --search found.", show_default=False
+        ),
     ] = None,
     singular_value: Annotated[
         float | None,
@@ -59,18 +67,27 @@ def command(
         printed(hf.ceilings.singular_value(n=joints, m=m, k=failures, lever=singular_value, angular=mixed), json_)
         return
     found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
-    if arm is not None:
-        made = hf.designs.synthesise(found, task=_task(rows, found.m), seed=seed)
-        printed(made, json_, [hf.designs.written(made.arms[0], arm)])
-        return
-    if search is None:
+    if arm is None and search is None:
         printed(found.verify(proof=True) if verify else found, json_)
         return
-    with working("searching") as now:
-        better = hf.ceilings.search(
-            n=found.n, m=found.m, k=found.k, seed=seed, seconds=search, progress=lambda value: now(f"best so far {value:.8f}")
-        )
-    printed(better, json_)
+    results: list[Result] = []
+    files, null = list[Path](), None
+    if search is not None:
+        size = {"n": found.n, "m": found.m, "k": found.k}
+        with working("searching") as now:
+            better = hf.ceilings.search(
+                **size, seed=seed, seconds=search, progress=lambda value: now(f"best so far {value:.8f}")
+            )
+        results.append(better)
+        null = better.null_space
+    if arm is not None:
+        called = _task(rows, found.m)
+        made = hf.designs.synthesise(None if search else found, null_space=null, task=called, failures=found.k, seed=seed)
+        results.append(made)
+        files = [hf.designs.written(made.arms[int(np.argmin(made.losses))], arm)]
+    printed_each(results, json_)
+    if not json_:
+        print_written(console(), files)
 
 
 def _task(text: str, rows: int) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import CertificateOption, CheckOption, StoreOption, TimeOption, WorkersOption
+from holdfast.cli.certify_options import CertificateOption, CheckOption, ReportOption, StoreOption, TimeOption, WorkersOption
 from holdfast.cli.certify_search import proved
 from holdfast.cli.options import (
     ArmArgument,
@@ -35,7 +35,9 @@ def path(
         str,
         typer.Option("--tube", help="How far off the path may be, m, and rad where the tool turns; or one number for both."),
     ] = "0",
-    task: Annotated[str, typer.Option("--task", help="What follows the path: pose, position or planar.")] = "pose",
+    task: Annotated[
+        str, typer.Option("--task", help="What follows the path: pose, position, pointing, planar or planar-pose.")
+    ] = "pose",
     segments: Annotated[
         int | None, typer.Option("--segments", help="Use so many of the motion. Default: all.", show_default=False)
     ] = None,
@@ -49,6 +51,7 @@ def path(
     hold: HoldOption = None,
     out: CertificateOption = Path("path.certificate"),
     plot: PlotOption = None,
+    report: ReportOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Prove that whatever joint locks, and whenever, one continuous motion finishes the path of the tool.
@@ -72,4 +75,4 @@ def path(
         segments=segments,
     )
     how = {"halvings": halvings, "time_limit": time_limit, "workers": workers, "store": store}
-    proved(claim, out, check, json_, plot, **how)
+    proved(claim, out, check, json_, plot, report, **how)

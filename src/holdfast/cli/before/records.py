@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import NOT_MET, JsonOption
+from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption, read_arm, read_configuration
 from holdfast.errors import InputError
 from holdfast.present.results import printed, printed_each
 
@@ -48,6 +48,27 @@ def show(
     """
     found = hf.designs.record(record)
     typer.echo(found.urdf() if urdf else found.text, nl=False)
+
+
+@command.command()
+def new(
+    arm: ArmArgument,
+    task: Annotated[str, typer.Option("--task", help="planar, position or pose.")] = "pose",
+    failures: Annotated[int, typer.Option("--failures", help="Joints that lock at once.")] = 1,
+    at: Annotated[str | None, typer.Option("--at", help="Joint values, rad. Default: zeros.", show_default=False)] = None,
+    name: Annotated[str, typer.Option("--name", help="Id of the record. Default: from the class.", show_default=False)] = "",
+    by: Annotated[str, typer.Option("--by", help="Who found it.")] = "anonymous",
+    how: Annotated[
+        str, typer.Option("--how", help="How, so that others can follow. Default: not said.", show_default=False)
+    ] = "",
+) -> None:
+    """Print an arm as a record: a file to check, to keep and to submit.
+
+    Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
+    """
+    model = read_arm(arm, None, None)
+    q = None if at is None else read_configuration(model, at, False, "--at")
+    typer.echo(hf.designs.new_record(model, task, failures, q=q, name=name, by=by, how=how).text, nl=False)
 
 
 @command.command()

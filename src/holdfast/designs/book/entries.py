@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -12,10 +14,10 @@ from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
 from holdfast.arm.model import Arm
-from holdfast.arms import dh_file
+from holdfast.arms import dh_file, load, names
 from holdfast.arms.urdf_writing import urdf_text
 from holdfast.ceilings.ceiling import Ceiling, look_up, table
-from holdfast.designs.book.measuring import jacobian_of, least_left, null_space_of
+from holdfast.designs.book.measuring import jacobian_by_differences, jacobian_of, least_left, null_space_of
 from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
 from holdfast.errors import InputError
 from holdfast.files import yaml
@@ -41,6 +43,7 @@ class _Class(Strict):
     joints: int
     failures: int
     quantity: Literal["relative-manipulability", "self-motion-size", "tolerant-workspace"]
+    of: str | None = None
     least_link: Annotated[Number, Field(ge=0, lt=0.5)] = 0.0
     conditions: list[str]
 
@@ -76,6 +79,12 @@ class RecordFile(Strict):
     check: _Check
     beaten_by: str | None = None
     licence: str
+    digest: str | None = None
+
+
+def digest_of(text: str) -> str:
+    """Of all characters of a file but white space and the line of the digest: digits that no measure depends on count, too."""
+    return sha256(re.sub(r"(?m)^digest:.*$|\s+", "", text).encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -116,7 +125,9 @@ class Record(Result):
 
     @property
     def arm(self) -> Arm | None:
-        """Its arm; None for a null space alone."""
+        """Its arm, of a relative record that which it is of; None for a null space alone."""
+        if self.data.kind.of is not None:
+            return load(self.data.kind.of)
         return None if self.data.arm is None else dh_file.built(self.data.arm, Path(f"{self.id}.yaml"))
 
     def urdf(self) -> str:
@@ -142,13 +153,17 @@ class Record(Result):
             "self-motion-size": "whole turns in one self-motion",
             "tolerant-workspace": f"m^2 whichever locks, {LINKS:g} m of links, each at least {percent(c.least_link)} of it",
         }
-        what = f"{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {of[c.quantity]}"
+        alone = "" if c.of is None else f"{c.of}, "
+        what = f"{alone}{c.task or f'any task of {c.rows} rows'}, {c.joints} joints, {of[c.quantity]}"
         beaten = f"; beaten by {self.data.beaten_by}" if self.data.beaten_by else ""
         return [f"{self.id}: {what}: {self.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten}"]
 
     def check(self) -> RecordCheck:
         """Measure everything again, with code that shares nothing with what found it."""
         c, claimed, claims = self.data.kind, self.data, list[tuple[str, bool]]()
+        if claimed.digest is not None:
+            found = digest_of(self.text)
+            claims.append((f"digest {claimed.digest} of the file as it was written, now {found}", found == claimed.digest))
         if c.quantity == "relative-manipulability":
             value = self._left(claims)
         else:
@@ -211,6 +226,8 @@ class Record(Result):
             said = f"null space {null.shape}, orthonormal to {lack:.1e}"
             claims.append((said, lack <= _ORTHONORMAL))
             return null
+        if c.of is not None:
+            return self._null_space_of_arm(claims)
         given = self.data.arm
         assert given is not None
         revolute = given.convention == "standard" and all(r.type == "revolute" for r in given.rows)
@@ -222,6 +239,18 @@ class Record(Result):
         unit = np.pi / 180 if given.angles == "deg" else 1.0
         rows = [(r.a, r.alpha * unit, r.d, r.theta * unit) for r in given.rows]
         return null_space_of(jacobian_of(rows, given.tool_point, self.q)[: c.rows])
+
+    def _null_space_of_arm(self, claims: list[tuple[str, bool]]) -> Array | None:
+        """Of an arm that is sold, at its configuration: by differences of its forward kinematics."""
+        c, arm = self.data.kind, self.arm
+        assert arm is not None
+        fits = len(self.q) == arm.n == c.joints and c.task is not None and TASKS[c.task] == c.rows
+        claims.append((f"{arm.n} joints of {arm.name}, task {c.task} of {c.rows} rows", fits))
+        if not fits:
+            return None
+        within = bool((self.q >= arm.lower - _LENGTH).all() and (self.q <= arm.upper + _LENGTH).all())
+        claims.append(("the configuration is within its limits", within))
+        return null_space_of(jacobian_by_differences(arm.forward_kinematics, self.q)[: c.rows])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -250,6 +279,8 @@ class RecordCheck(Result):
             more = self.record.data.value / current.data.value - 1
             compared = "beats" if more > 1e-9 else "does not beat"
             lines.append(f"{compared} {current.id}: {100 * more:+.2g} %")
+        if self.ok and current is None:
+            lines.append("the first of its class")
         return lines
 
 
@@ -300,16 +331,23 @@ def read(path: Path) -> Record:
     Raises:
         InputError: It cannot be read, is no record, or holds neither an arm nor a null space.
     """
-    return _record(yaml.content(path, "holdfast.designs.book.entries", "id"), path.read_text(encoding="utf-8"), path.name)
+    return of_content(yaml.content(path, "holdfast.designs.book.entries", "id"), path.read_text(encoding="utf-8"), path.name)
 
 
-def _record(content: Any, text: str, name: str) -> Record:
+def of_content(content: Any, text: str, name: str) -> Record:
+    """The record that a file says, from what was read of it, its text, and its name for messages.
+
+    Raises:
+        InputError: It is no record.
+    """
     try:
         data = RecordFile.model_validate(content)
     except ValidationError as error:
         raise InputError(f"{name}: {sentence(error, RecordFile, dh_file.TAGS)}") from error
-    if (data.arm is None) == (data.null_space is None):
-        raise InputError(f"{name}: a record has an arm or a null_space, one of them")
+    if [data.arm is None, data.null_space is None, data.kind.of is None].count(False) != 1:
+        raise InputError(f"{name}: a record has an arm or a null_space, or its class is `of` an arm: one of them")
+    if data.kind.of is not None and data.kind.of not in names():
+        raise InputError(f"{name}: there is no built-in arm '{data.kind.of}'")
     return Record(id=data.id, data=data, text=text)
 
 
@@ -328,4 +366,4 @@ def _bare(c: Ceiling) -> Record:
         "check": {"command": f"holdfast records check {name}", "tolerance": 1e-9},
         "licence": "CC0-1.0",
     }
-    return _record(content, "".join(f"{key}: {json.dumps(value)}\n" for key, value in content.items()), name)
+    return of_content(content, "".join(f"{key}: {json.dumps(value)}\n" for key, value in content.items()), name)

@@ -101,7 +101,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         speeds = np.where(np.isfinite(speeds), speeds, UNLIMITED)
         finite = [np.clip(limit, -NEVER, NEVER) for limit in (arm.lower, arm.upper)]
         self._limits = np.concatenate([*finite, speeds])
-        self._goals, self._start = goals or self._random_goals, None if start is None else arm.check_configurations(start)
+        self._goals, self._start = goals, None if start is None else arm.check_configurations(start)
         self._kernel = step_kernel(law).now()
         self._on_gpu = self._kernel.backend.startswith("cuda")
         self.metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": []}
@@ -204,7 +204,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         room = ROOM * (self._upper - self._lower)
         drawn = self.np_random.uniform(self._lower + room, self._upper - room, (count, arm.n))
         q = drawn if self._start is None else np.broadcast_to(self._start, (count, arm.n))
-        goals = np.asarray(self._goals(self.np_random, count), dtype=np.float64)
+        goals = np.asarray((self._goals or self._random_goals)(self.np_random, count), dtype=np.float64)
         if goals.shape != (count, 4, 4) or not np.isfinite(goals).all():
             raise InputError(f"goals gave an array of shape {goals.shape}; they must be finite tool poses ({count}, 4, 4), m")
         episodes = self._episode[rows] + self.num_envs

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.certificates.tool_paths.forms import SEGMENT
-from holdfast.certificates.tool_paths.march import LockedPath, Slab
+from holdfast.certificates.tool_paths.cells import SEGMENT
+from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.proof import PathProof
+from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.verifier import per_cent
+from holdfast.present.certificates.pages import UNVERIFIED, kept
+from holdfast.present.certificates.pages import write as write
 from holdfast.present.printing import Rows
 from holdfast.present.story import Story
 
@@ -87,7 +90,7 @@ def next_steps(found: PathProof, name: str) -> list[str]:
 
 def story(found: PathProof) -> Story:
     """How much is proved, and what that says and does not."""
-    claim, share = found.claim, per_cent(found.tolerant).replace(" %", "\N{NO-BREAK SPACE}%")
+    claim, share = found.claim, kept(per_cent(found.tolerant))
     tube = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
     whole = [_name(found, part) for part in found.parts if part.proved == 1]
     answer = "Nothing is proved for all locks: something is undecided at every instant."
@@ -96,15 +99,17 @@ def story(found: PathProof) -> Story:
     if found.tolerant:
         rest = "nothing is undecided" if found.tolerant == 1 else "the rest is undecided for some lock"
         broken = [_name(found, part) for part in found.parts if part.refuted]
-        rest += f", of {', '.join(broken)} partly refuted" if broken else ""
+        if broken:
+            rest = f"of the rest, some is refuted for locks of {', '.join(broken)}"
         answer = (
             f"Whichever joint locks, at {share} of the instants the {claim.task} path{tube} is proved to be finished; {rest}."
         )
     return Story(
         f"What {claim.arm.name} finishes after a lock",
-        f"{answer} Found by the prover, not yet verified.",
+        f"{answer} {UNVERIFIED}",
         lines=[found.document["claim"]],
-        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, each glued to the next")],
+        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, glued or empty")],
+        tables=[Rows(["lock of", "undecided between knots"], [[_name(found, p), _between(found, p)] for p in found.parts])],
         figures={
             "slices": (
                 "When it may lock",
@@ -118,7 +123,6 @@ def story(found: PathProof) -> Story:
             ("Proof", "cells of the path behind intervals of lock instants; in each there is one solution, and on the face "
              "between two cells it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, "
              "tool and base"),
-            ("Checked by", "holdfast certificate check FILE, or verifier.py and its folder alone, in ball arithmetic"),
             ("Not said", "collisions, torques, speed, or how the healthy motion came about; links are rigid, the geometry is "
              "the file's, locks do not slip, and the path is that of straight joint segments"),
         ],
@@ -175,9 +179,9 @@ def _panel(axes: Axes, found: PathProof, part: LockedPath) -> None:
         """The path behind intervals of lock instants."""
         return [[(a, a), (end, a), (end, b), (b, b)] for a, b in ((x / SEGMENT, y / SEGMENT) for x, y in spans)]
 
-    axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="none"))
-    axes.add_collection(PolyCollection(turned, facecolor=BLUE, edgecolor="none"))
-    axes.add_collection(PolyCollection(behind(part.refuted_spans), facecolor=ORANGE, edgecolor="none"))
+    axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="face", linewidth=0.2))
+    axes.add_collection(PolyCollection(turned, facecolor=BLUE, edgecolor="face", linewidth=0.2))
+    axes.add_collection(PolyCollection(behind(part.refuted_spans), facecolor=ORANGE, edgecolor="face", linewidth=0.2))
     axes.add_collection(PolyCollection(behind(found.gaps(part)), facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3))
     axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
     axes.plot([0, end], [0, end], color=INK, linewidth=0.8)

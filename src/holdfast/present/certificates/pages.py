@@ -12,6 +12,8 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
+from holdfast.certificates.tool_paths.march import LockedPath
+from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.verifier import per_cent
 from holdfast.present import results
 from holdfast.present.printing import Rows
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 UNVERIFIED = "Found by the prover, not yet verified."
-Found = Proof | TolerantProof | Refutation | ManipulabilityBound
+Found = Proof | TolerantProof | Refutation | ManipulabilityBound | PathProof
 
 
 def write(
@@ -55,7 +57,7 @@ def _verified(found: Found, check: CertificateCheck | None) -> str:
     """Who says so."""
     if check is None:
         return UNVERIFIED
-    if check.ok and not isinstance(found, Proof | TolerantProof) and found.refuted:
+    if check.ok and isinstance(found, Refutation | ManipulabilityBound) and found.refuted:
         return "Verified by code that shares nothing with the prover."
     if check.ok:
         return f"Verified: all {check.accepted:,} boxes are accepted by code that shares nothing with the prover."
@@ -66,15 +68,16 @@ def _verified(found: Found, check: CertificateCheck | None) -> str:
 
 def by_part(found: Found, check: CertificateCheck | None = None) -> Rows:
     """Shares, boxes and seconds of each part, and by whom it is verified."""
-    parts = found.parts if isinstance(found, TolerantProof) else (found,)
+    parts = found.parts if isinstance(found, TolerantProof | PathProof) else (found,)
     checks = [None] * len(parts) if check is None else check.parts or (check,)
     rows = []
     for part, checked in zip(parts, checks, strict=True):
-        refuted = not isinstance(part, Proof) and part.refuted
-        shares = ["0 %", "by a witness", "the rest"] if refuted else [
-            per_cent(part.proved), "0 %", per_cent(part.undecided, up=True),
-        ]  # fmt: skip
-        rows.append([_name(part), *shares, f"{part.leaves:,}", f"{part.seconds:.1f}", *_by(checked)])
+        shares = [per_cent(part.proved), "0 %", per_cent(part.undecided, up=True)]
+        if isinstance(part, LockedPath):
+            shares[1] = per_cent(part.refuted)
+        elif not isinstance(part, Proof) and part.refuted:
+            shares = ["0 %", "by a witness", "the rest"]
+        rows.append([_name(found, part), *shares, f"{part.leaves:,}", f"{part.seconds:.1f}", *_by(checked)])
     return Rows(["lock of", "proved", "refuted", "undecided", "boxes", "search, s", "verified by", "check, s"], rows)
 
 
@@ -83,14 +86,16 @@ def _by(check: CertificateCheck | None) -> list[str]:
     if check is None:
         return ["nobody yet", ""]
     by = "verifier.py" if check.ok else f"not: {check.rejected:,} rejected" if check.rejected else "sampled"
-    return [by, f"{check.seconds:.1f}"]
+    return [by, f"{check.seconds:.1f}" if check.seconds else ""]
 
 
-def _name(part: Found) -> str:
+def _name(found: Found, part: Found | LockedPath) -> str:
+    if isinstance(part, LockedPath):
+        return found.claim.arm.joint_names[part.joint]
     if isinstance(part, ManipulabilityBound):
         locks = part.claim.locks
         return "any one joint" if len(locks) == part.claim.arm.n else ", ".join(part.claim.arm.joint_names[k] for k in locks)
-    assert not isinstance(part, TolerantProof)
+    assert not isinstance(part, TolerantProof | PathProof)
     return "healthy" if part.claim.locked < 0 else part.claim.arm.joint_names[part.claim.locked]
 
 

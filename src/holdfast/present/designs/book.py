@@ -39,10 +39,13 @@ def write(book: Book, path: Path, command: str = "") -> Path:
     bare = [r for r in book.values() if r.arm is None]
     sections = []
     for task, title in _KINDS.items():
-        mine = [r for r in book.values() if r.arm is not None and r.data.kind.task == task]
+        mine = [r for r in book.values() if r.arm is not None and r.data.kind.of is None and r.data.kind.task == task]
         with drawing.style():
             picture = drawing.svg(figure(mine), task, f"Stick figures of {len(mine)} arms")
         sections.append(Section(title, [_table(mine), Picture(picture, _CAPTION)]))
+    sold = [r for r in book.values() if r.data.kind.of is not None]
+    said = Text("The best configuration found of each, within its limits, beside what no arm of so many joints can beat.")
+    sections.append(Section("Arms that are sold", [said, _table(sold)]))
     told = Text("A null space is that of arms of every kind: only the number of joints and of rows counts.")
     sections.append(Section("Null spaces alone", [told, _table(bare)]))
     open_ = sum(r.gap > 1e-8 for r in bare)

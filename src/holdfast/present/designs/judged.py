@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.ceilings.ceiling import when
-from holdfast.designs.judgement import Judgement
+from holdfast.designs.judging.judgement import Judgement
 from holdfast.present.printing import Rows, number, print_rows
 from holdfast.present.story import Story
 from holdfast.words import capitalised
@@ -75,7 +75,7 @@ def story(j: Judgement) -> Story:
 
 
 def tables(j: Judgement) -> list[Rows]:
-    """A row for each column, so that arms stand side by side."""
+    """A row for each column, arms side by side."""
     head = ["measure", "unit", "samples", *(arm.name for arm in j.arms)]
     rows = []
     for c, column in enumerate(j.columns):

@@ -9,8 +9,8 @@ import numpy as np
 from holdfast.arms.dh_file import text
 from holdfast.arms.dh_rows import dh_table
 from holdfast.designs.book.entries import Book, Record, RecordCheck
+from holdfast.designs.judging.orders import Orders
 from holdfast.designs.synthesis.arms import Synthesis
-from holdfast.designs.synthesis.orders import Orders
 from holdfast.present.printing import Rows
 from holdfast.words import percent
 

@@ -47,7 +47,9 @@ def proved_of_path(made: Recovery, rest: RestOfPath, path: Path, *, solver: RowS
     if known is not None:
         hardest = list(dict.fromkeys([known[0], *hardest]))
         place = f"at {100 * share[known[0]]:.1f} % of the tool path"
-        made = replace(made, proof=f"{place} {known[1]}", proof_kind="a pose of the path")
+        kept = broken_by(made.keep, solver.rows, poses[known[0]])
+        pose = None if kept else poses[known[0]]
+        made = replace(made, proof=f"{place} {known[1]}", proof_kind="a pose of the path", proved_pose=pose)
     else:
         leg = _parted_leg(*asked, path, space)
         if leg is None:

@@ -27,13 +27,14 @@ from holdfast.solvers.optima import optimise
 from holdfast.solvers.self_motions import fibres
 
 Array = NDArray[np.float64]
+_Cell = tuple[str, str, int, Interval]  # name and unit of a column, of how many samples, and what one arm has
 
 MEASURES = ("quantile", "fraction-above", "self-motion-size", "tolerant-workspace")
 CONFIDENCE = 0.95  # of all intervals
 _SPACING, _STARTS = 0.05, 32  # rad; of self-motions
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Measured:
     """A column of a judgement: what all arms are measured by.
 
@@ -198,23 +199,26 @@ def judge(
         "self-motion-size": drawn.sizes,
         "tolerant-workspace": drawn.workspace,
     }
-    cells: list[list[tuple[Measured, Interval]]] = []
+    columns: list[Measured] = []
+    cells: list[list[Interval]] = []
     most = 0
     with Count("arms", len(some), whole=True) as step:
         for arm, rows in zip(some, tasks, strict=True):
             index = RelativeManipulability(arm, rows, failures)
             most = max(most, *map(len, index.failures))
-            cells.append([cell for measure in chosen for cell in ways[measure](index)])
+            found = [(measure, *cell) for measure in chosen for cell in ways[measure](index)]
+            columns = [Measured(measure=measure, name=name, unit=unit, samples=size) for measure, name, unit, size, _ in found]
+            cells.append([interval for *_, interval in found])
             step(1)
     return Judgement(
         arms=some,
         task=tasks[0],
         failures=most,
         region=where,
-        columns=tuple(column for column, _ in cells[0]),
-        values=np.array([[x.value for _, x in row] for row in cells]),
-        low=np.array([[x.low for _, x in row] for row in cells]),
-        high=np.array([[x.high for _, x in row] for row in cells]),
+        columns=tuple(columns),
+        values=np.array([[x.value for x in row] for row in cells]),
+        low=np.array([[x.low for x in row] for row in cells]),
+        high=np.array([[x.high for x in row] for row in cells]),
         left_out=tuple(left_out),
         level=level,
         seed=seed,
@@ -240,51 +244,36 @@ class _Drawn:
         there = np.ones(len(values), dtype=bool)
         return Checked.of(values, there, self.weights, level=level, heaviest=self.region.heaviest).guaranteed
 
-    def quantile(self, index: RelativeManipulability) -> list[tuple[Measured, Interval]]:
+    def quantile(self, index: RelativeManipulability) -> list[_Cell]:
         best = optimise(index.arm, self.poses, index, seed=self.seed)
-        column = Measured("quantile", f"kept at {_percents(self.level)} of the poses", "1", len(self.poses))
-        return [(column, self._of_poses(np.where(best.success, best.value, 0.0), self.level))]
+        kept = self._of_poses(np.where(best.success, best.value, 0.0), self.level)
+        return [(f"kept at {_percents(self.level)} of the poses", "1", len(self.poses), kept)]
 
-    def above(self, index: RelativeManipulability) -> list[tuple[Measured, Interval]]:
+    def above(self, index: RelativeManipulability) -> list[_Cell]:
         low, high = finite_limits(index.arm)
         value = index(np.random.default_rng(self.seed).uniform(low, high, (self.samples, index.arm.n)))
+        hits = [int((value >= h).sum()) for h in self.thresholds]
         return [
-            (
-                Measured("fraction-above", f"joint space at {h:g} or more", "1", self.samples),
-                Interval.of(int((value >= h).sum()), self.samples, CONFIDENCE),
-            )
-            for h in self.thresholds
+            (f"joint space at {h:g} or more", "1", self.samples, Interval.of(count, self.samples, CONFIDENCE))
+            for h, count in zip(self.thresholds, hits, strict=True)
         ]
 
-    def sizes(self, index: RelativeManipulability) -> list[tuple[Measured, Interval]]:
+    def sizes(self, index: RelativeManipulability) -> list[_Cell]:
         found = fibres(index.arm, self.poses, index.task, spacing=_SPACING, starts=_STARTS, seed=self.seed)
         turns = np.array([each.size for each in found]) / (2 * np.pi)
-        return [
-            (Measured("self-motion-size", name, "turns", len(turns)), self._of_poses(turns, level))
-            for name, level in (
-                ("self-motion, median", 0.5),
-                (f"self-motion at {_percents(self.level)} of the poses", self.level),
-            )
-        ]
+        levels = {"self-motion, median": 0.5, f"self-motion at {_percents(self.level)} of the poses": self.level}
+        return [(name, "turns", len(turns), self._of_poses(turns, level)) for name, level in levels.items()]
 
-    def workspace(self, index: RelativeManipulability) -> list[tuple[Measured, Interval]]:
-        arm = index.arm
-        flat = plane_normal(arm) is not None
+    def workspace(self, index: RelativeManipulability) -> list[_Cell]:
+        flat = plane_normal(index.arm) is not None
         rows, options = "planar" if flat else "position", {"points": self.points, "seed": self.seed}
-        found = tolerant_workspace(arm, rows, optimise=self.best_limits, confidence=CONFIDENCE, **options)
-        length = _length(arm)
+        found = tolerant_workspace(index.arm, rows, optimise=self.best_limits, confidence=CONFIDENCE, **options)
+        length = _length(index.arm)
         whole = np.pi * length**2 if flat else 4 / 3 * np.pi * length**3
-        low, high = found.size_interval
-        interval = Interval(value=found.size / whole, low=low / whole, high=high / whole, confidence=CONFIDENCE)
-        name = "workspace that every lock leaves"
-        return [
-            (
-                Measured(
-                    "tolerant-workspace", name, "of the disc" if flat else "of the ball", 0 if found.exact else self.points
-                ),
-                interval,
-            )
-        ]
+        value, low, high = (x / whole for x in (found.size, *found.size_interval))
+        interval = Interval(value=value, low=low, high=high, confidence=CONFIDENCE)
+        unit, points = f"of the {'disc' if flat else 'ball'}", 0 if found.exact else self.points
+        return [("workspace that every lock leaves", unit, points, interval)]
 
 
 def _percents(fraction: float) -> str:
