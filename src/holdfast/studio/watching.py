@@ -94,14 +94,14 @@ def watched(machine: Machine, state: State, progress: Callable[[int, int], None]
     arm, q = machine.arm, np.array(state.q)
     there, here = pose_of(state.target[:3], state.target[3:]), machine.hand(q)
     law = hf.control.by_name(state.laws[0], arm, task=machine.task, gain=GAIN, speed_limit=SPEED)
-    body, start, logs = hf.Body(), q, []
+    body, start, logs = hf.Body(), q, list[hf.faults.Log]()
     for k in range(HEALTHY):
         progress(k, HEALTHY + 1)
         goal = _rows(machine, here if k % 2 else there)
         run = hf.simulate_faults(law, start, goal, body=body, seed=k, time_limit=LONGEST)
         logs, start = [*logs, run.log()], np.asarray(run.q[-1])
-    friction = {"coulomb": np.full(arm.n, body.coulomb), "viscous": np.full(arm.n, body.viscous)}
-    monitor = hf.diagnosis.Monitor(arm, hf.diagnosis.calibrate(arm, logs, factor=FACTOR, **friction))
+    dry, viscous = np.full(arm.n, body.coulomb), np.full(arm.n, body.viscous)
+    monitor = hf.diagnosis.Monitor(arm, hf.diagnosis.calibrate(arm, logs, factor=FACTOR, coulomb=dry, viscous=viscous))
     progress(HEALTHY, HEALTHY + 1)
     faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=KINDS[kind])]  # type: ignore[arg-type]
     run = hf.simulate_faults(law, q, _rows(machine, there), faults=faults, body=body, seed=HEALTHY, time_limit=LONGEST)

@@ -135,16 +135,13 @@ class Panel:
 
     def _watch_tab(self, arm: Arm, state: State) -> None:
         self.gui.add_html(
-            _line(
-                "Let a joint fail while the arm moves to the target, and see what a monitor makes of it. Time is in the tab Motion."
-            )
+            _line("A joint fails while the arm moves to the target: what does a monitor make of it? Time is in the tab Motion.")
         )
         kind = self.gui.add_dropdown("fault", tuple(KINDS), initial_value=state.fault[0])
         joint = self.gui.add_dropdown("of joint", arm.joint_names, initial_value=state.fault[1])
         onset = self.gui.add_slider("begins after, s", 0.0, LATEST, 0.1, state.fault[2])
-        self.fault = lambda: (_chosen(kind), _chosen(joint), float(onset.value))
         for handle in (kind, joint, onset):
-            self._on(handle.on_update, "fault", lambda _: self.fault())
+            self._on(handle.on_update, "fault", lambda _: (_chosen(kind), _chosen(joint), float(onset.value)))
         self._button("Move, fail and watch", "watch")
         self.watched = self.gui.add_html("", visible=False)
         self._button("Clear", "clear")
