@@ -209,7 +209,7 @@ def configurations(chosen: argparse.Namespace) -> str:
 
 def main() -> None:
     chosen = harness.options(__doc__, rounds=1)
-    for part in (proofs, poses, paths, widths):
+    for part in (proofs, poses, configurations, paths, widths):
         print(part(chosen), flush=True)
 
 
