@@ -25,6 +25,7 @@ hypothesis.settings.register_profile("holdfast", deadline=None)
 hypothesis.settings.load_profile("holdfast")
 
 pytest_plugins = ["slow", "workers"]
+gc.set_threshold(50_000)  # of 700: looking for circles again and again is a twelfth of the time
 
 _DRAW = 20120831
 _MADE: list[str] = []
@@ -90,6 +91,11 @@ def _lay_out_where_pages_are_the_subject() -> None:
             whole(engine, figure)
 
     ConstrainedLayoutEngine.execute = execute
+
+
+def pytest_collection_finish():
+    gc.collect()
+    gc.freeze()  # modules and tests stay to the end: nobody looks for circles in them
 
 
 @pytest.hookimpl(wrapper=True)

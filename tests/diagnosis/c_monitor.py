@@ -80,7 +80,7 @@ def bounds_of(arm):
     )
 
 
-def random_record(arm, rng):
+def random_record(arm, rng, wrong):
     """A motion with the torques of the model, and something wrong with a joint: q, references, torques, poses (NaN: none)."""
     n, t = arm.n, np.arange(CYCLES) / 1000
     low, high = np.where(np.isfinite([arm.lower, arm.upper]), [arm.lower, arm.upper], [[-2.0], [2.0]])
@@ -88,7 +88,7 @@ def random_record(arm, rng):
     begun = t - 0.05 * np.tanh(t / 0.05)  # from rest
     reference = middle + rng.uniform(0.05, 0.3, n) * np.sin(begun[:, None] * pace + rng.uniform(0, 6, n))
     true = reference + rng.normal(0, 3e-4, n)
-    i, onset, wrong = rng.integers(n), rng.integers(60, 150), rng.integers(8)
+    i, onset = rng.integers(n), rng.integers(60, 150)
     rates = np.gradient(true, 1e-3, axis=0)
     tau = arm.inverse_dynamics(true, rates, np.gradient(rates, 1e-3, axis=0)) + rng.normal(0, 0.05, true.shape)
     told, after = true + rng.normal(0, 2e-5, true.shape), t[onset:] - t[onset]
@@ -149,19 +149,49 @@ def as_bytes(arm, record):
     return rows.tobytes()
 
 
-def compared(arm, program, count, rng, bounds):
-    """The largest difference in units of what is compared, verdicts that differ, and kinds that were named."""
+IN_NODE = """
+import {{Monitor}} from "./monitor.mjs";
+const n={n},wide=3*n+18;
+let monitor,cycle,at=0;
+for(let i=0;i<input.length;i+=wide){{
+const row=input.subarray(i,i+wide);
+if(row[0]>1e300){{monitor=new Monitor();cycle=0;continue;}}
+if(++cycle==={again})monitor.rearm();
+const torque=row[2*n]>0?row.subarray(2*n+1,3*n+1):null,pose=row[3*n+1]>0?row.subarray(3*n+2):null;
+const t=monitor.step(row.subarray(0,n),row.subarray(n,2*n),torque,pose),stale=monitor.stale();
+output.set([...monitor.r,...monitor.overY,monitor.overW,t.alarm?1:0,t.time,t.joint,t.kind,t.loss,
+stale.includes("joints")+2*stale.includes("tool")],at);
+at+=2*n+7;
+}}
+"""
+
+
+def run_in_node(arm, bounds, records):
+    """What the monitor in JavaScript says of records, as the harness writes it."""
+    import javascript
+
+    data = np.frombuffer(b"".join(as_bytes(arm, record) for record in records))
+    script = IN_NODE.format(n=arm.n, again=REARMED)
+    size = len(records) * CYCLES * (2 * arm.n + 7)
+    out = javascript.run(script, data, size, monitor=hf.diagnosis.javascript_of(arm, bounds, sensors=SENSORS))
+    return out.reshape(len(records), CYCLES, 2 * arm.n + 7)
+
+
+def compared(arm, program, count, rng, bounds, *, node=False):
+    """The largest difference in units of what is compared, verdicts that differ, and kinds that were named; in Node too."""
     monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds, sensors=SENSORS), 0.0, 0, set()
     n = arm.n
-    for _ in range(count):
-        record = random_record(arm, rng)
-        ours = said_by_python(monitor, record)
+    records = [random_record(arm, rng, k % 8) for k in range(count)]  # each of what can be wrong
+    ours = [said_by_python(monitor, record) for record in records]
+    pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
+    for record, one in zip(records, ours, strict=True):
         done = subprocess.run([str(program)], input=as_bytes(arm, record), capture_output=True, check=True)
-        theirs = np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 7)
-        size = np.r_[np.maximum(np.abs(ours[:, :n]).max(axis=0), bounds.torque), np.ones(n + 1)]
-        worst = max(worst, float((np.abs(ours - theirs)[:, : 2 * n + 1] / size).max()))
+        pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 7)))
+    for one, theirs in pairs:
+        size = np.r_[np.maximum(np.abs(one[:, :n]).max(axis=0), bounds.torque), np.ones(n + 1)]
+        worst = max(worst, float((np.abs(one - theirs)[:, : 2 * n + 1] / size).max()))
         whole = [k for k in range(2 * n + 1, 2 * n + 7) if k != 2 * n + 5]
-        same = (ours[:, whole] == theirs[:, whole]).all() and np.allclose(ours[:, 2 * n + 5], theirs[:, 2 * n + 5], atol=1e-9)
+        same = (one[:, whole] == theirs[:, whole]).all() and np.allclose(one[:, 2 * n + 5], theirs[:, 2 * n + 5], atol=1e-9)
         unlike += not same
         last = theirs[REARMED - 2]
         named.add(KINDS[int(last[2 * n + 4])] if last[2 * n + 1] else "none")
