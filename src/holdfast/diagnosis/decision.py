@@ -60,7 +60,7 @@ class Decision:
         self._again, self.ends = cycles(AGAIN, dt), cycles(WATCHED, dt)
         self.count = 0
         self._size, self._residual = np.zeros(n), np.zeros(n)
-        self._push = False
+        self.push = 0.0
         self._kinds: Kinds | None = None
         self._suspect = tool_alone
         self._weight = np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
@@ -115,7 +115,7 @@ class Decision:
     def _isolate(self, q: Array) -> None:
         """The joint with the largest residuals, unless a force on a link explains the residual torques better than it."""
         if self._torques:
-            self._push = _is_a_push(self._arm, q, self._residual / self._split - self._level, SCALE * self._bounds.change)
+            self.push = _better_by_force(self._arm, q, self._residual / self._split - self._level, SCALE * self._bounds.change)
         i, bounds = int(self._size.argmax()), self._bounds
         both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
         dry = float(bounds.coulomb[i])
@@ -129,7 +129,7 @@ class Decision:
         """
         if self._suspect and (self.count >= self._split or last):
             return self._sensor()
-        if self._push:
+        if self.push > PUSHED:
             reason = ("a force on a link explains all rows",)
             return Verdict(True, self._time, kind="contact", candidates=("contact",), evidence=reason)
         if self._kinds is None:
@@ -164,8 +164,8 @@ def cycles(seconds: float, dt: float) -> int:
     return max(1, round(seconds / dt))
 
 
-def _is_a_push(arm: Arm, q: Array, change: Array, scale: Array) -> bool:
-    """Whether a force at the far end of a link explains a change of residual torques better than any joint alone.
+def _better_by_force(arm: Arm, q: Array, change: Array, scale: Array) -> float:
+    """By how many squares of deviations a force at the far end of a link explains residual torques better than one joint.
 
     Args:
         arm: The arm.
@@ -180,4 +180,4 @@ def _is_a_push(arm: Arm, q: Array, change: Array, scale: Array) -> bool:
         columns[k + 1 :] = 0.0  # what carries the link alone feels it
         force = np.linalg.lstsq(columns, rows, rcond=_SAME)[0]
         least = min(least, float(((rows - columns @ force) ** 2).sum()))
-    return bool(least + PUSHED < (rows**2).sum() - (rows**2).max())
+    return float((rows**2).sum() - (rows**2).max() - least)

@@ -35,7 +35,7 @@ def command(
     """
     model = read_arm(arm, base, tip, hold)
     model_of = None if faults is None else hf.faults.load(faults)
-    events = model_of and [model_of.draw(model, episode=k, horizon=duration) for k in range(records)]
+    events = None if model_of is None else [model_of.draw(model, episode=k, horizon=duration) for k in range(records)]
     seeds, folder = range(seed, seed + records), made(out)
     logs = hf.diagnosis.rehearse_many(model, duration, seeds=seeds, faults=events, bodies=[body] * records)
     files = [log.save(folder / f"{k:06d}.npz") for k, log in enumerate(logs)]

@@ -118,8 +118,8 @@ static double left_by_force(const double *rows, const double *jacobian, const do
     return left;
 }
 
-/* Does a force on a link explain the change of the residual torques better than any joint alone? */
-static int is_a_push(const NAME_state *s, const double *q) {
+/* By how many squares of deviations a force on a link explains the change of the residual torques better than one joint. */
+static double better_by_force(const NAME_state *s, const double *q) {
     double there[12], jacobian[6 * N], ends[3 * N], rows[N], whole = 0, most = 0, least = HUGE_VAL;
     int k;
     tool(q, there, jacobian, ends);
@@ -129,7 +129,7 @@ static int is_a_push(const NAME_state *s, const double *q) {
         most = larger(most, rows[k] * rows[k]);
     }
     for (k = 0; k < N; ++k) least = smaller(least, left_by_force(rows, jacobian, ends + 3 * k, k));
-    return least + CONST_PUSHED < whole - most;
+    return whole - most - least;
 }
 
 /* A cycle after the alarm: sums, which are all that the decision needs. */
@@ -143,7 +143,7 @@ static void follow(NAME_state *s, const double *q, const double *reference, cons
             s->residual[k] += s->r[k];
         }
         if (s->count == CONST_SPLIT) {
-            if (s->torques) s->push = is_a_push(s, q);
+            if (s->torques) s->push = better_by_force(s, q);
             for (s->joint = 0, k = 1; k < N; ++k)
                 if (s->size[k] > s->size[s->joint]) s->joint = k;
         }
@@ -208,7 +208,7 @@ static void decide(NAME_state *s) {
         answer(s, s->told >= 0 && s->gap > CONST_WORSE ? s->told : -1, GUARD_SENSOR, -1);
         return;
     }
-    if (s->push) {
+    if (s->push > CONST_PUSHED) {
         answer(s, -1, GUARD_CONTACT, -1);
         return;
     }
@@ -250,9 +250,9 @@ void NAME_rearm(NAME_state *s) {
     int k;
     for (k = 0; k < N; ++k) s->over_z[k] = s->over_y[k] = s->size[k] = s->residual[k] = s->left[k] = 0;
     s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
-    s->rr = s->rt = s->rs = s->tt = s->ss = s->verdict.time = 0;
+    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->verdict.time = 0;
     s->count = s->poses = s->some = 0;
-    s->alarmed = s->torques = s->tool = s->suspect = s->push = s->verdict.alarm = 0;
+    s->alarmed = s->torques = s->tool = s->suspect = s->verdict.alarm = 0;
     s->joint = s->told = -1;
     answer(s, -1, GUARD_UNKNOWN, -1);
 }

@@ -34,11 +34,11 @@ typedef struct {
     double v[COUNT], r[COUNT], level[COUNT];
     double over_z[COUNT], over_y[COUNT], over_w;
     long cycle, fast, seen, seen_at, count, poses, some, missed, known;
-    int begun, anew, referred, alarmed, torques, tool, suspect, push, joint, told;
+    int begun, anew, referred, alarmed, torques, tool, suspect, joint, told;
     double past[GUARD_LATE + 1][COUNT], felt[COUNT];
     double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
     double size[COUNT], residual[COUNT], left[COUNT], gap;
-    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
+    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss, push;
     NAME_verdict verdict;
 } NAME_state;
 

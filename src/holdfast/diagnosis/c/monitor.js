@@ -39,8 +39,8 @@ export class Monitor {
     rearm() {
         for (const name of ["overZ", "overY", "size", "residual", "left"]) this[name] = new Float64Array(N);
         for (const name of ["overW", "gap", "lowest", "highest", "wantedLow", "wantedHigh", "asked", "least", "behind"]) this[name] = 0;
-        for (const name of ["rr", "rt", "rs", "tt", "ss", "count", "poses", "some"]) this[name] = 0;
-        this.alarmed = this.torques = this.tool = this.suspect = this.push = false;
+        for (const name of ["rr", "rt", "rs", "tt", "ss", "count", "poses", "some", "push"]) this[name] = 0;
+        this.alarmed = this.torques = this.tool = this.suspect = false;
         this.joint = this.told = -1;
         this.verdict = {alarm: false, time: 0, joint: -1, kind: UNKNOWN, loss: -1};
     }
@@ -192,14 +192,14 @@ export class Monitor {
         return dot(rest, rest);
     }
 
-    /* Does a force on a link explain the change of the residual torques better than any joint alone? */
-    #isAPush(q) {
+    /* By how many squares of deviations a force on a link explains the change of the residual torques better than one joint. */
+    #betterByForce(q) {
         const there = new Float64Array(12 + 9 * N); /* the other one is of the pose, and late */
         tool(q, there);
         const rows = this.residual.map((x, k) => (x / CONST_SPLIT - this.level[k]) / (CONST_SCALE * changeBound[k]));
         const squares = rows.map((x) => x * x), whole = squares.reduce((sum, x) => sum + x, 0);
         const least = Math.min(...squares.map((_, k) => this.#leftByForce(rows, there, k)));
-        return least + CONST_PUSHED < whole - Math.max(...squares);
+        return whole - Math.max(...squares) - least;
     }
 
     /* A cycle after the alarm: sums, which are all that the decision needs. */
@@ -211,7 +211,7 @@ export class Monitor {
                 this.residual[k] += this.r[k];
             }
             if (this.count < CONST_SPLIT) return;
-            if (this.torques) this.push = this.#isAPush(q);
+            if (this.torques) this.push = this.#betterByForce(q);
             this.joint = this.size.indexOf(Math.max(...this.size));
         } else if (this.count <= CONST_LAST) {
             const i = this.joint, slip = Math.tanh(this.v[i] / CONST_SLIP), r = this.r[i], low = this.low[i];
@@ -265,7 +265,7 @@ export class Monitor {
         const i = this.joint;
         if (this.count < CONST_SPLIT) return;
         if (this.suspect) return this.#answer(this.told >= 0 && this.gap > CONST_WORSE ? this.told : -1, SENSOR, -1);
-        if (this.push) return this.#answer(-1, CONTACT, -1);
+        if (this.push > CONST_PUSHED) return this.#answer(-1, CONTACT, -1);
         if (this.count < CONST_LAST) return this.#answer(i, UNKNOWN, -1);
         const travel = this.highest - this.lowest, wanted = this.wantedHigh - this.wantedLow;
         const still = travel < CONST_STILL && travel < CONST_PART * wanted + CONST_NOISE;
