@@ -35,6 +35,7 @@ from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows, _translated
 from holdfast.recovery.rows import row_solver
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
+from holdfast.teleop.trials.plant import Plant
 
 TABLE = Path(__file__).with_name("ptx_table.csv")
 TARGETS = (70, 80, 90)
@@ -152,6 +153,7 @@ def session(large: bool) -> None:
         measures.Together([measures.torque(panda), measures.acceleration(panda)])(q)
         _ = row_solver(panda, as_task(panda, "pose"))._kernels.loop
         outward_kernel()
+        Plant(hf.control.by_name("damped:0.1", plane, task="planar"))
 
 
 def assembled(program, state, target: int, ptxas: Path) -> list[int]:
