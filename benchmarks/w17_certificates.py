@@ -95,7 +95,9 @@ def paths(chosen: argparse.Namespace) -> str:
         knots = straight(arm, np.deg2rad(START), move, 10 if chosen.quick else 50)
         for tube in (0.0, 0.0005):
             harness.progress(f"path {name}, tube {tube} m")
-            found = hf.certify(hf.certificates.path_claim(arm, knots, tube=tube), time_limit=30 if chosen.quick else 300)
+            found = hf.certify(
+                hf.certificates.path_claim(arm, knots, tube=tube), halvings=7, time_limit=30 if chosen.quick else 300
+            )
             with tempfile.TemporaryDirectory() as folder:
                 file = found.write(Path(folder) / "path.certificate")
                 began = time.process_time()
@@ -103,11 +105,13 @@ def paths(chosen: argparse.Namespace) -> str:
                 each = 1e3 * (time.process_time() - began) / max(check.leaves, 1)
                 size = file.stat().st_size / max(check.leaves, 1)
             for part, verdict in zip(found.parts, check.parts, strict=True):
-                share = [f"{float(part.proved):.4f}", f"{part.leaves:,}", str(verdict.rejected), f"{part.seconds:.1f}"]
+                share = [f"{float(x):.4f}" for x in (part.proved, part.refuted, part.undecided)]
+                share += [f"{part.leaves:,}", str(verdict.rejected), f"{part.seconds:.1f}"]
                 rows.append([f"{name}, tube {1000 * tube} mm", arm.joint_names[part.joint], *share])
-            share = [f"{float(found.proved):.4f}", f"{found.leaves:,}", str(check.rejected)]
+            share = [f"{float(x):.4f}" for x in (found.proved, found.refuted, found.undecided)]
+            share += [f"{found.leaves:,}", str(check.rejected)]
             rows.append(["", "all", *share, f"check {each:.2f} ms and {size:.0f} bytes a cell"])
-    head = ["path", "lock of", "lock instants proved", "cells", "rejected", "search, s"]
+    head = ["path", "lock of", "lock instants proved", "refuted", "undecided", "cells", "rejected", "search, s"]
     return harness.table("W17: tool paths of a Panda, finished by one continuous motion", head, rows)
 
 
@@ -205,7 +209,7 @@ def configurations(chosen: argparse.Namespace) -> str:
 
 def main() -> None:
     chosen = harness.options(__doc__, rounds=1)
-    for part in (proofs, poses, paths, widths):
+    for part in (proofs, poses, configurations, paths, widths):
         print(part(chosen), flush=True)
 
 

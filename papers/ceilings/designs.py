@@ -22,8 +22,9 @@ def table() -> list[str]:
             bounds = {f"a{k + 1}": (least, 3 - (arm.n - 1) * least) for k in range(arm.n)}
             found = hf.designs.design_for_workspace(arm, bounds, seed=seed)
             took = process_time() - start
-            again = hf.tolerant_workspace(found.arm(), "planar", found.limits).size
-            lines.append(f"| {what} | {seed} | {found.value:.5f} m² | {again:.4g} m² | {found.bound:.5f} | {took:.0f} |")
+            region = hf.tolerant_workspace(found.arm(), "planar", found.limits)
+            again = f"{region.size:.4g} m² ({region.size_interval[0]:.4g} to {region.size_interval[1]:.4g})"
+            lines.append(f"| {what} | {seed} | {found.value:.5f} m² | {again} | {found.bound:.5f} | {took:.0f} |")
     for task, name in (("position", "self-motion-position-4R-001"), ("pose", "self-motion-pose-7R-001")):
         recorded = hf.designs.record(name).arm
         assert recorded is not None
@@ -36,8 +37,8 @@ def table() -> list[str]:
             assert found.q is not None
             assert found.winding is not None
             made = found.arm()
-            again = hf.self_motion(made, made.forward_kinematics(found.q), task, spacing=0.01, starts=32).size / (2 * np.pi)
+            turned = hf.self_motion(made, made.forward_kinematics(found.q), task, spacing=0.01, starts=32).size / (2 * np.pi)
             turns = " ".join(f"{x:+d}" for x in found.winding)
             said = f"{found.value:.4f} turns ({turns})"
-            lines.append(f"| {arm.n}R, {task} | {seed} | {said} | {again:.4f} turns | {found.bound:.0f} | {took:.0f} |")
+            lines.append(f"| {arm.n}R, {task} | {seed} | {said} | {turned:.4f} turns | {found.bound:.0f} | {took:.0f} |")
     return lines

@@ -12,7 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 SEGMENT = 2**20
-ROWS = {"planar": [0, 1], "planar-pose": [0, 1, 5], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+ROWS = {task: list(range(count)) for task, count in (("planar", 2), ("position", 3), ("pointing", 5), ("pose", 6))}
+ROWS["planar-pose"] = [0, 1, 5]
 
 
 class Driven:
@@ -80,7 +81,8 @@ class Driven:
             def rate(s, x, middle=middle):
                 healthy, rates = self.healthy(s)[0], self.healthy(middle)[1]
                 wanted = self.tool(healthy)[2] @ rates
-                slope = self.tool(placed(x, s))[2]
+                slope, frame = self.tool(placed(x, s))[2], self.tool(healthy)[1].T
+                wanted[3:], slope[3:] = frame @ wanted[3:], frame @ slope[3:]
                 wanted -= slope[:, lock["followers"]] @ rates[lock["followers"]]
                 return np.linalg.solve(slope[self.rows][:, free], wanted[self.rows])
 
@@ -91,7 +93,7 @@ class Driven:
             q, at = every[-1], end
         place, turn, _ = self.tool(q)
         goal, wanted, _ = self.tool(self.knots[-1])
-        off = np.append(place - goal, Rotation.from_matrix(turn @ wanted.T).as_rotvec())[self.rows]
+        off = np.append(place - goal, Rotation.from_matrix(wanted.T @ turn).as_rotvec())[self.rows]
         return float(np.abs(off).max()), beyond
 
 

@@ -21,7 +21,7 @@ from holdfast.errors import InputError, StoreError
 from holdfast.present.certificates.console import state
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
-WORDS = ["--range", "1=-1..0.5", "--range", "2=0..1.4", "--range", "3=0..1.4", "--no-check"]
+WORDS = ["--range", "1=-1..0.5", "--range", "2=0..1.4", "--range", "3=0..1.4"]
 
 
 def proofs(found):
@@ -61,10 +61,9 @@ def test_a_search_that_was_stopped_is_resumed(claim, whole, tmp_path):
     assert proofs(hf.certify(claim, halvings=6, store=tmp_path)) == proofs(whole)
 
 
-def test_a_search_that_was_killed_is_resumed(claim, whole, tmp_path):
-    journal = tmp_path / "store" / "search.journal"
-    words = ["tolerant", "planar-3r", "--box", "1.5 0.5", "--size", "0.3", "--halvings", "6", "--store", str(journal.parent)]
-    run = [sys.executable, "-m", "holdfast", "certify", *words, *WORDS, "--out", str(tmp_path / "a.zip")]
+def killed(words, journal):
+    """A search in another process, killed when a part of it is done."""
+    run = [sys.executable, "-m", "holdfast", "certify", *map(str, words), "--store", str(journal.parent), "--no-check"]
     with subprocess.Popen(run, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         end = time.monotonic() + 100
         while process.poll() is None and time.monotonic() < end:
@@ -73,7 +72,25 @@ def test_a_search_that_was_killed_is_resumed(claim, whole, tmp_path):
                 break
             time.sleep(0.002)
     assert journal.read_bytes().count(b'"part"') >= 1
+
+
+def test_a_search_that_was_killed_is_resumed(claim, whole, tmp_path):
+    journal = tmp_path / "store" / "search.journal"
+    words = ["tolerant", "planar-3r", "--box", "1.5 0.5", "--size", "0.3", "--halvings", "6", *WORDS]
+    killed([*words, "--out", tmp_path / "a.zip"], journal)
     assert proofs(hf.certify(claim, halvings=6, store=journal.parent)) == proofs(whole)
+
+
+def test_a_path_that_was_killed_is_resumed(three, tmp_path):
+    journal, motion = tmp_path / "store" / "search.journal", tmp_path / "motion.csv"
+    rows = [",".join(map(repr, row)) for row in BEND.tolist()]
+    motion.write_text("\n".join(["joint1_rad,joint2_rad,joint3_rad", *rows]), encoding="utf-8")
+    words = ["path", "planar-3r", motion, "--task", "planar", "--halvings", "2", "--out", tmp_path / "a.certificate"]
+    killed(words, journal)
+    claim = hf.certificates.path_claim(three, BEND, task="planar")
+    found, whole = (hf.certify(claim, halvings=2, store=store) for store in (journal.parent, None))
+    assert found.document["digest"] == whole.document["digest"]
+    assert (found.nodes, found.finished, found.refuted > 0) == (whole.nodes, True, True)
 
 
 def test_a_part_of_many_cells_is_cut(three, tmp_path, monkeypatch):

@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 import holdfast as hf
-from holdfast.designs.book.entries import of_content
+from holdfast.designs.book.entries import digest_of, of_content
 from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
 from holdfast.designs.judging.orders import distinct_orders
 from holdfast.designs.synthesis.axes import axes_of, poses_of
@@ -152,6 +152,7 @@ def test_a_changed_digit_is_found(book, tmp_path):
         data = yaml.safe_load(book[name].text)
         for change in ("value", "bound", "inside"):
             new = yaml.safe_load(book[name].text)
+            new.pop("digest", None)  # which finds all of them
             if change == "value":
                 new["value"] = data["value"] * (1 + 1e-7)
             elif change == "bound":
@@ -163,6 +164,23 @@ def test_a_changed_digit_is_found(book, tmp_path):
             file = tmp_path / "changed.yaml"
             file.write_text(yaml.safe_dump(new), encoding="utf-8")
             assert not hf.designs.record(str(file)).check().ok, (name, change)
+
+
+def test_every_changed_digit_of_a_file_is_found(book, rng):
+    """By the digest: that of joint 1's offset, say, changes nothing that is measured."""
+    files = [r for r in book.values() if r.arm is not None]
+    assert len(files) == 36
+    for record in files:
+        assert record.data.digest == digest_of(record.text)
+        assert digest_of(record.text.replace(", ", ",  ")) == record.data.digest
+        digits = [k for k, c in enumerate(record.text[: record.text.index("digest:")]) if c.isdigit()]
+        for k in rng.choice(digits, 20):
+            changed = record.text[:k] + str((int(record.text[k]) + 1) % 10) + record.text[k + 1 :]
+            assert digest_of(changed) != record.data.digest
+    text = book["panda-pose-k1-001"].text.replace("at: [0.0,", "at: [0.1,")
+    failed = [said for said, holds in of_content(yaml.safe_load(text), text, "changed").check().claims if not holds]
+    assert len(failed) == 1
+    assert "digest" in failed[0]
 
 
 def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_library(book, tmp_path):
@@ -178,6 +196,7 @@ def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_libra
         found = hf.tolerant_workspace(record.arm, "planar", pairs).size
         assert area_in_closed_form([0.5, 1.25, 1.25], last) == pytest.approx(found, rel=1e-4)
     changed = yaml.safe_load(record.text)
+    del changed["digest"]
     for key, value, said in (
         ("limits", [None, [-1, 1], None], "no joint but the last"),
         ("limits", [None, None], "limits of each joint"),
@@ -200,6 +219,7 @@ def test_the_best_configurations_of_arms_that_are_sold_hold(book):
         assert index(record.q) == pytest.approx(record.data.value, rel=1e-7)
         assert record.data.value <= index.bound
     changed = yaml.safe_load(book["panda-pose-k1-001"].text)
+    del changed["digest"]
     for at, value, said in ((3, 1e-6, "value"), (5, 1.0, "within its limits")):
         q = list(changed["at"])
         q[at] += value

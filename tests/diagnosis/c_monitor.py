@@ -145,15 +145,45 @@ def as_bytes(arm, record):
     return rows.tobytes()
 
 
-def compared(arm, program, count, rng, bounds):
-    """The largest difference in units of what is compared, verdicts that differ, and kinds that were named."""
+IN_NODE = """
+import {{Monitor}} from "./monitor.mjs";
+const n={n},wide=3*n+18;
+let monitor,cycle,at=0;
+for(let i=0;i<input.length;i+=wide){{
+const row=input.subarray(i,i+wide);
+if(row[0]>1e300){{monitor=new Monitor();cycle=0;continue;}}
+if(++cycle==={again})monitor.rearm();
+const torque=row[2*n]>0?row.subarray(2*n+1,3*n+1):null,pose=row[3*n+1]>0?row.subarray(3*n+2):null;
+const t=monitor.step(row.subarray(0,n),row.subarray(n,2*n),torque,pose);
+output.set([...monitor.r,...monitor.overY,monitor.overW,t.alarm?1:0,t.time,t.joint,t.kind,t.loss],at);
+at+=2*n+6;
+}}
+"""
+
+
+def run_in_node(arm, bounds, records):
+    """What the monitor in JavaScript says of records, as the harness writes it."""
+    import javascript
+
+    data = np.frombuffer(b"".join(as_bytes(arm, record) for record in records))
+    script = IN_NODE.format(n=arm.n, again=REARMED)
+    size = len(records) * CYCLES * (2 * arm.n + 6)
+    out = javascript.run(script, data, size, monitor=hf.diagnosis.javascript_of(arm, bounds))
+    return out.reshape(len(records), CYCLES, 2 * arm.n + 6)
+
+
+def compared(arm, program, count, rng, bounds, *, node=False):
+    """The largest difference in units of what is compared, verdicts that differ, and kinds that were named; in Node too."""
     monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds), 0.0, 0, set()
     n = arm.n
-    for _ in range(count):
-        record = random_record(arm, rng)
-        ours = said_by_python(monitor, record)
+    records = [random_record(arm, rng) for _ in range(count)]
+    ours = [said_by_python(monitor, record) for record in records]
+    pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
+    for record, one in zip(records, ours, strict=True):
         done = subprocess.run([str(program)], input=as_bytes(arm, record), capture_output=True, check=True)
-        theirs = np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 6)
+        pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 6)))
+    for one, theirs in pairs:
+        ours = one
         size = np.r_[np.maximum(np.abs(ours[:, :n]).max(axis=0), bounds.torque), np.ones(n + 1)]
         worst = max(worst, float((np.abs(ours - theirs)[:, : 2 * n + 1] / size).max()))
         same = (ours[:, 2 * n + 1 : -1] == theirs[:, 2 * n + 1 : -1]).all() and np.allclose(

@@ -41,6 +41,7 @@ class Teacher:
         import mujoco
 
         self._mujoco, self._env, self._knows, self._given, self._weight = mujoco, env, knows, part, rotation
+        env.injector.restore()  # faults of an episode before
         model = env.unwrapped.model
         self._body = model.body("tips_arm").id
         self._healthy = (*model.jnt_range[:N].T.copy(), model.dof_damping[:N].copy(), np.zeros(N))

@@ -17,7 +17,13 @@ from holdfast.grammar import TASKS
 
 Array = NDArray[np.float64]
 
-ROWS = {"planar": [0, 1], "planar-pose": [0, 1, 5], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}  # of tool paths
+ROWS = {
+    "planar": [0, 1],
+    "planar-pose": [0, 1, 5],
+    "position": [0, 1, 2],
+    "pointing": [0, 1, 2, 3, 4],
+    "pose": [0, 1, 2, 3, 4, 5],
+}  # of tool paths
 _TASKS = {2: "planar", 3: "position"}  # by coordinates of a target, where the tool may turn as it likes
 _SKEWED = 1e-6  # of a rotation: so much is mended
 

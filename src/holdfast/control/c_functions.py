@@ -24,6 +24,15 @@ class Function:
     inputs: Mapping[str, SX]
     outputs: Mapping[str, Sequence[SX]]
 
+    @property
+    def arrays(self) -> dict[str, SX]:
+        """Outputs as columns."""
+        return {name: ca.vertcat(*[ca.vec(ca.densify(x)) for x in parts]) for name, parts in self.outputs.items()}
+
+    def program(self, name: str) -> Program:
+        """All inputs one after the other, to all outputs."""
+        return Program(name, list(self.inputs.values()), list(self.arrays.values()))
+
 
 def written(functions: Mapping[str, Function]) -> str:
     """C99 text of functions ``static void CALL(const double *input, ..., double *output, ...)``.
@@ -33,10 +42,8 @@ def written(functions: Mapping[str, Function]) -> str:
     """
     texts = []
     for call, function in functions.items():
-        told = {out: ca.vertcat(*[ca.vec(ca.densify(x)) for x in parts]) for out, parts in function.outputs.items()}
-        program = Program(call, list(function.inputs.values()), list(told.values()))
-        sizes = ({key: x.numel() for key, x in arrays.items()} for arrays in (function.inputs, told))
-        texts.append(c_function(program, call, *sizes))
+        sizes = ({key: x.numel() for key, x in arrays.items()} for arrays in (function.inputs, function.arrays))
+        texts.append(c_function(function.program(call), call, *sizes))
     return "\n".join(texts)
 
 

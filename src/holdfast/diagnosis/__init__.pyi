@@ -4,6 +4,7 @@ from holdfast.diagnosis.bounds import calibrate as calibrate
 from holdfast.diagnosis.bounds import load as load
 from holdfast.diagnosis.export import ExportedMonitor as ExportedMonitor
 from holdfast.diagnosis.export import export_c as export_c
+from holdfast.diagnosis.export import javascript_of as javascript_of
 from holdfast.diagnosis.foresight.delay import expected_delays as expected_delays
 from holdfast.diagnosis.foresight.motions import read_motion as read_motion
 from holdfast.diagnosis.foresight.observability import Observability as Observability

@@ -25,6 +25,7 @@ from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
 from holdfast.files.output import put
+from holdfast.kernels.javascript_backend import javascript
 from holdfast.notice import says
 from holdfast.result import Result
 
@@ -164,8 +165,8 @@ def _array(name: str, values: Array) -> str:
     return f"static const double {name}[{len(values)}] = {{{', '.join(map(_number, values))}}};\n"
 
 
-def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
-    """Names, bounds, and what is computed of the arm's equations, by the graph that the Python monitor has."""
+def _functions(arm: Arm, bounds: Bounds) -> dict[str, Function]:
+    """What is computed of the arm's equations, by the graph that the Python monitor has."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
     there = [pose[:3, :3].T, pose[:3, 3]]
@@ -173,25 +174,75 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     if np.isfinite(bounds.torque).all():
         terms = zip(("p", "energy", "gravity"), momentum_terms(bounds.body(arm), q, v), strict=True)
         functions["momentum"] = Function({"q": q, "v": v}, {term: [x] for term, x in terms})
+    return functions
+
+
+def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -> str:
+    """The monitor as a module of JavaScript that exports a class ``Monitor``: the same numbers and the same verdicts.
+
+    ``monitor.step(q, reference, torque, pose)`` takes arrays, the last two or ``null``, and returns the verdict of C's struct:
+    ``{alarm, time, joint, kind, loss}``; ``monitor.kind()`` is the word. It is no certified safety function.
+
+    Args:
+        arm: The arm.
+        bounds: Of the healthy arm.
+        sensors: How good they are.
+
+    Raises:
+        InputError: Bounds of another arm.
+        ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
+    """
+    bounds.require(arm, bounds.rate)
+    known = sensors or Sensors()
+    words = {"COUNT": str(arm.n), "RATE_HZ": repr(bounds.rate), "NAME": "monitor", **_constants(arm, bounds, known)}
+    words = {word: text.replace("HUGE_VAL", "Infinity") for word, text in words.items()}
+    programs = [javascript(function.program(call), call) for call, function in _functions(arm, bounds).items()]
+    arrays = {
+        "torqueBound": bounds.torque,
+        "trackingBound": bounds.tracking,
+        "weight": _weights(known),
+        "viscous": bounds.viscous,
+        "coulomb": bounds.coulomb,
+    }
+    numbers = [f"const {key} = [{', '.join(map(_number, values))}];\n" for key, values in arrays.items()]
+    named = f"export const joints = {json.dumps(arm.joint_names)};\n"
+    text = "".join(numbers).replace("HUGE_VAL", "Infinity") + named
+    return "\n".join(
+        [
+            _about(arm, bounds, "monitor", _digest(bounds, known), "JavaScript, needs nothing"),
+            *programs,
+            text,
+            filled("holdfast.diagnosis", "c", "monitor.js", words),
+        ]
+    )
+
+
+def _weights(sensors: Sensors) -> Array:
+    return np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
+
+
+def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
+    """Names, bounds, and what is computed of the arm's equations."""
+    functions = _functions(arm, bounds)
     text = written(functions)
     joints = ", ".join(quoted(x) for x in arm.joint_names)
     text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
     text += _array("torque_bound", bounds.torque) + _array("tracking_bound", bounds.tracking)
-    text += _array("weight", np.repeat(1 / np.array([sensors.position, sensors.angle]), 3))
+    text += _array("weight", _weights(sensors))
     text += _array("viscous", bounds.viscous) if "momentum" in functions else ""
     return text + _array("coulomb", bounds.coulomb)
 
 
-def _about(arm: Arm, bounds: Bounds, name: str, digest: str) -> str:
+def _about(arm: Arm, bounds: Bounds, name: str, digest: str, needs: str = "C99, needs only math.h") -> str:
     told = bounds.false_alarms()
     limit = "unknown" if told is None else f"fewer than {told[1]:.3g} an hour with 95 % confidence, for motion as calibrated"
     lines = [
         f"{name}: watches the arm {arm.title} for joint faults, {bounds.rate:g} cycles a second.",
         f"Made by holdfast {version()} of the arm {arm.fingerprint}",
-        f"and the bounds {digest}; C99, needs only math.h.",
+        f"and the bounds {digest}; {needs}.",
         "",
         f"False alarms: {limit}.",
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
-        "Compile without -ffast-math.",
+        *(["Compile without -ffast-math."] if "C99" in needs else []),
     ]
     return commented(lines)

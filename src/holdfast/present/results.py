@@ -154,12 +154,13 @@ def write(
 
 
 def as_table(table: Rows) -> Any:
-    """Rows as a block of a page."""
+    """Rows as a block of a page; columns of words begin at the left."""
     from holdfast.report.page import Table
 
     rows = [[_beside(cell) for cell in row] for row in table.rows]
     wide = bool(rows) and len(rows[0]) > _NARROW
-    return Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=wide)
+    worded = {k for row in table.rows for k, cell in enumerate(row) if cell[:1].isalpha() and cell not in ("none", "infinite")}
+    return Table(rows, table.head, frozenset(range(1, len(table.head))) - worded, caption=table.title, wide=wide)
 
 
 def _beside(cell: str) -> str:

@@ -125,7 +125,7 @@ def _masked(law: Law) -> str:
 def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
     """What the files leave open."""
     arm = law.arm
-    arrays = {
+    arrays: dict[str, ArrayLike] = {
         "lower": arm.lower,
         "upper": arm.upper,
         "largest_rate": [joint.velocity for joint in arm.joints],

@@ -13,6 +13,7 @@ from holdfast.studio.motions import Motion, law_motions, swing_motion
 from holdfast.studio.scene.cloud import Cloud, around, read_cloud
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
+from holdfast.studio.watching import watched
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -88,4 +89,5 @@ JOBS: dict[str, Callable[[Machine, State, Progress], object]] = {
     "laws": laws,
     "swing": swing,
     "region": region,
+    "watch": watched,
 }

@@ -9,9 +9,9 @@ from typing import Literal
 from holdfast.errors import InputError
 
 Condition = Literal["healthy", "locked", "free"]
-Show = Literal["arm", "best-worst", "laws", "swing", "region", "file"]
+Show = Literal["arm", "best-worst", "laws", "swing", "region", "file", "watch"]
 CONDITIONS: tuple[Condition, ...] = ("healthy", "locked", "free")
-SHOWS: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file")
+SHOWS: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file", "watch")
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,8 @@ class State:
         time: Where a motion is shown, s (or whatever its first column counts).
         cell: A cell file, or None: no objects.
         meshes: A folder in which meshes that the arm's file names are looked for first, or None.
+        fault: What is injected and watched: its kind, the joint and when, s. No joint: the middle one. It is not in the
+            command line.
         moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
     """
 
@@ -62,6 +64,7 @@ class State:
     cell: str | None = None
     meshes: str | None = None
     moved: tuple[tuple[str, tuple[float, ...]], ...] = ()
+    fault: tuple[str, str, float] = ("locked", "", 1.0)
 
     def __post_init__(self) -> None:
         n = len(self.names)
@@ -75,6 +78,8 @@ class State:
         if self.target is not None and len(self.target) != 7:
             raise InputError(f"target has {len(self.target)} numbers; it needs x,y,z in m and the quaternion x,y,z,w")
         object.__setattr__(self, "conditions", tuple(conditions))
+        kind, joint, onset = self.fault
+        object.__setattr__(self, "fault", (kind, joint or self.names[n // 2], onset))
 
     @property
     def failed(self) -> tuple[int, ...]:
@@ -101,6 +106,7 @@ class State:
             out += [] if condition == "healthy" else [f"--{'lock' if condition == 'locked' else 'free'}={name}"]
         for option in ("index", "susceptibility", "objective", "show"):
             value = getattr(self, option)
+            value = plain.show if value == "watch" else value
             out += [] if value == getattr(plain, option) else [f"--{option}={value}"]
         if self.laws != plain.laws:
             out += [f"--law={law}" for law in self.laws]

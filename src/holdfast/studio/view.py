@@ -20,6 +20,7 @@ from holdfast.studio.scene.machine import TOLERANCE, Machine, Reading, sentence
 from holdfast.studio.scene.objects import Objects
 from holdfast.studio.scene.stage import Stage
 from holdfast.studio.state import State
+from holdfast.studio.watching import Watched
 from holdfast.studio.work import TICK, Clock, Latest
 
 Array = NDArray[np.float64]
@@ -42,6 +43,7 @@ class View:
         self.updates = 0  # pictures sent
         self.held: str | int | None = None  # what a person holds: the end effector, or a slider
         self.cloud: Cloud | None = None
+        self.watched: Watched | None = None
         self._reading: Reading | None = None
         self._busy = self._closed = False
         self.live = Latest(self._complain)
@@ -75,6 +77,7 @@ class View:
             self.stage.read(reading, frames[-1])
             self.panel.read(reading, state)
             self.panel.enable(self._possible(reading))
+            self.panel.tell_watched(self.watched if state.show == "watch" else None, state)
             if self.objects is not None:
                 self.panel.tell_nearest(*self.objects.read(q))
             self._guide.tell(reading, state.names, self._busy)
@@ -95,6 +98,7 @@ class View:
             "target": state.target is None,
             "laws": state.target is not None and not self._arrived(),
             "region": not isinstance(reading.bars, str),
+            "watch": machine.swings and not state.failed,
             "clear": beside or self._busy,
             "tour": True,
             "next": not self._busy,
@@ -137,6 +141,13 @@ class View:
             self._refresh()
         else:
             self._place(q)
+
+    def _on_labels(self, value: bool) -> None:
+        self.stage.show_labels(value)
+
+    def _on_losses(self, value: bool) -> None:
+        self.stage.show_losses(value)
+        self._refresh()
 
     def _show_target(self) -> None:
         numbers = self.state.target or ()

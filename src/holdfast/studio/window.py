@@ -25,13 +25,14 @@ from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE
 from holdfast.studio.sliding import Sliding
 from holdfast.studio.state import State
 from holdfast.studio.view import View
+from holdfast.studio.watching import Watched
 from holdfast.studio.work import Worker
 
 Array = NDArray[np.float64]
 Check = Callable[[], None]
 Load = Callable[[Any, str, bytes], None]
 
-OF_HERE = ("best-worst", "laws", "swing")  # what is of where the arm is, and of what has failed
+OF_HERE = ("best-worst", "laws", "swing", "watch")  # what is of where the arm is, and of what has failed
 ROUNDING = 1e-9  # of an index: below it a number says nothing
 
 
@@ -127,7 +128,7 @@ class Window(View):
         self._refresh()
         with suppress(HoldfastError):  # said when somebody drags
             self.machine.reach(self.q, self.machine.hand(self.q), ())  # compiled while the browser draws
-        start = {"best-worst": "best-worst", "laws": "laws", "swing": "swing", "file": "file"}.get(self.state.show)
+        start: str | None = self.state.show if self.state.show in (*OF_HERE, "file") else None
         if self.state.show == "region":
             start = "results" if self.state.region else "region"
         if start is not None:
@@ -279,6 +280,18 @@ class Window(View):
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
         )
 
+    def _on_watch(self, _: Any) -> None:
+        if self.state.target is None:
+            self._on_target(None)
+
+        def show(found: Watched) -> None:
+            self.watched = found
+            self._show_motions(
+                [found.motion], (ORANGE,), "A joint fails while the arm moves; the monitor sees what a robot would."
+            )
+
+        self._start_work("Simulating healthy motions, and one with the fault", "watch", show)
+
     def _on_file(self, _: Any) -> None:
         if self._start.file is not None:  # as the command line has named it: no path comes from the page
             self._open_motion(read_motion(self.machine.arm, self._start.file), self._start.file)
@@ -384,12 +397,3 @@ class Window(View):
 
     def _on_skip(self, _: Any) -> None:
         self._guide.end()
-
-    # ---- showing ---------------------------------------------------------------------------------------------------
-
-    def _on_labels(self, value: bool) -> None:
-        self.stage.show_labels(value)
-
-    def _on_losses(self, value: bool) -> None:
-        self.stage.show_losses(value)
-        self._refresh()

@@ -16,7 +16,8 @@ Index = NDArray[np.int64]
 _TARGETS, _MOST, _STARTS = 250, 1000, 12  # targets at first and at most, and random starts of each
 _EACH = 32  # cells for each target: where there are more, there are more targets
 _STRIDE = 0.5  # along self-motions, rad
-_CLIMB, _WIDER = 10, 2.0  # such steps, to prove more of cells so many times wider than what is proved without
+_CLIMB, _BEST, _WIDER = 10, 30, 2.0  # such steps, of the best more, to prove more of cells so many times wider than without,
+_MUCH, _WIDTHS = 0.75, (2.0**-10, 2.0**10)  # or twice as wide after so much of them is, in such a range
 _ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
 _TRIED = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
 _MET = 1e-9  # m and rad
@@ -73,25 +74,28 @@ class Pool:
         q, at = q[met], at[met]
         if not self._half.any():
             self._half = _WIDER / 2 * self._width * 0.5 ** self._estimate(q, at)[1]
-        q, size = self._climbed(q, at[:, : reach.axes])
+        q, size, wide = self._climbed(q, at, np.ones(len(q)), _CLIMB)
         self.add(at, q)
         # Arms reach a target in several ways, and cells halved in one that proves little stay with it: of each target the best.
         order = np.argsort(-size, kind="stable")
-        first = np.unique(at[order], axis=0, return_index=True)[1]
-        self._best.append((at[order[first]] / self._unit, q[order[first]]))
+        best = order[np.unique(at[order], axis=0, return_index=True)[1]]
+        found, _, _ = self._climbed(q[best], at[best], wide[best], _BEST)
+        self._best.append((at[best] / self._unit, found))
         return q, at
 
-    def _climbed(self, q: Array, targets: Array) -> tuple[Array, Array]:
-        """Moved along self-motions to where configurations prove more, and how much."""
-        q, half, best = q.copy(), np.tile(self._half, (len(q), 1)), np.full(len(q), -1.0)
-        for k in range(1 + _CLIMB * self._reach.redundant):
+    def _climbed(self, q: Array, at: Array, wide: Array, steps: int) -> tuple[Array, Array, Array]:
+        """Moved along self-motions to where configurations prove more, and how much: parts of cells so many times as wide."""
+        q, best, targets = q.copy(), np.full(len(q), -1.0), at[:, : self._reach.axes]
+        for k in range(1 + steps * self._reach.redundant):
             if monotonic() > self._until:
                 break
             other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
-            size = Form.at(self._reach, other, targets).scale(half, best if k else None)
+            half = np.minimum(self._half * wide[:, None], self._width / 2)
+            size = wide * Form.at(self._reach, other, targets).scale(half, best / wide if k else None)
             better = size > best
             q[better], best[better] = other[better], size[better]
-        return q, best
+            wide = np.clip(np.where(best > _MUCH * wide, 2 * wide, np.where(best > 0, wide, wide / 2)), *_WIDTHS)
+        return q, best, wide
 
     def add(self, centre: Array, q: Array) -> None:
         """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""

@@ -29,7 +29,7 @@ class PathClaim:
 
     Attributes:
         arm: The arm.
-        task: ``pose``, ``position``, ``planar`` or ``planar-pose``: what of the tool follows the path.
+        task: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``: what of the tool follows the path.
         knots: (K + 1, n) rad and m, of the healthy motion, which is straight between them.
         locks: Indices of the joints that may lock, one at a time, in order.
         during: First and last instant of a lock, in units of 2^-20 of a segment.
@@ -76,7 +76,7 @@ def path_claim(
             to 1/64 of a segment.
         tube: m, and rad as well where the task has rotations, or these two: any continuous path of the tool is finished that
             begins on that of the motion and stays within this of it.
-        task: ``pose``, ``position``, ``planar`` or ``planar-pose``: what of the tool follows the path.
+        task: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``: what of the tool follows the path.
         segments: Use so many, of equal numbers of steps of the motion as nearly as may be; default: all, at most 256.
 
     Raises:
@@ -85,6 +85,8 @@ def path_claim(
     """
     if task not in ROWS:
         raise InputError(f"task is '{task}'; paths are of {', '.join(ROWS)}")
+    if task == "pointing" and np.any(tube):
+        raise InputError("there is no tube around a pointing path; tube must be 0")
     if task == "planar-pose":
         need_flat(arm, "a planar pose is")
         need_turning(arm)

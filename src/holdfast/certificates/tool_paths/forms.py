@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from holdfast.certificates.claims import ROWS
 from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths.cells import SEGMENT, UNIT, Cells, Forms
+from holdfast.certificates.tool_paths.tools import axial, onto, sideways, solved, swept, tangents, twice
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -49,7 +50,7 @@ class Following:
         self.chain, self.knots, self.still, self.tube, self.limits = chain, knots, still, tube, limits
         self.n, self.slides, self._rows = knots.shape[1], slides, ROWS[task]
         self.m = len(self._rows)
-        self.rotated = self._rows[-1] > 2
+        self.rotated, self._pointing = self._rows[-1] > 2, task == "pointing"
         self.free = [k for k in range(self.n) if k not in still]
         self._linear = sum(row < 3 for row in self._rows)
         self._turns = np.tile(~slides, 2).astype(float)
@@ -76,7 +77,7 @@ class Following:
             error, slope = self.missed(at, target)
             if np.abs(error).max(initial=0.0) < _MET:
                 break
-            q[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+            q[:, self.free] -= np.clip(solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
         q[:, self.free] = np.round(q[:, self.free] / UNIT) * UNIT
         return q
 
@@ -113,7 +114,7 @@ class Following:
         closed &= (s < _ROOM * only).all(axis=1)
         good = closed & one & ((q[:, self.free] - reach >= low) & (q[:, self.free] + reach <= high)).all(axis=1)
         if self.rotated:
-            good &= (angle < _TURN) & (np.einsum("nij,nij->n", at[1], target[1]) > _STRAIGHT)
+            good &= (angle < _TURN) & (self.straight(at, target) > _STRAIGHT)
         place = (cells.start + cells.end) / (2 * SEGMENT)
         if (some := np.flatnonzero(turned)).size:
             left_over = (place - (cells.end - 1) // SEGMENT - 1)[some]
@@ -126,13 +127,13 @@ class Following:
         jacobian, drift = slopes[:, :, self.free], slopes[:, :, self.still[0]] * rate[:, self.still[:1]]
         ahead = np.einsum("nmk,nk->nm", slopes[:, :, n:], along)
         ahead += np.einsum("nmk,nk->nm", slopes[:, :, self.still[1:]], along[:, self.still[1:]])
-        inverse = _solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
+        inverse = solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
         own = np.zeros((len(slopes), m + 1, 2 + tube + m))
         own[:, -1, 1] = 1
         own[:, :-1, :2] = -inverse @ np.stack([drift, ahead], axis=2)
         own[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
         if turned.any():
-            tangent, across = _tangent(np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned])
+            tangent, across = tangents(np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned])
             # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
             beside = (tangent[:, :-1] * rate[turned][:, self.free]).sum(axis=1) + tangent[:, -1]
             own[turned, :, 0] = tangent * beside[:, None] - np.einsum("nkm,nm->nk", across, drift[turned])
@@ -166,7 +167,7 @@ class Following:
         """Whether all that is so far from points (N, m + 1) is where cells have one solution; ``turned``: those before."""
         matrix = forms.own[:, :, [1, *range(-self.m, 0)]]
         here = np.column_stack([forms.q[:, self.free], forms.place])
-        found = _solved(matrix, np.concatenate([(point - here)[:, :, None], away], axis=2))
+        found = solved(matrix, np.concatenate([(point - here)[:, :, None], away], axis=2))
         most = _MARGIN * np.abs(found).sum(axis=2) + _LEAST
         inside = (most[:, 0] < forms.half[:, 1]) | ~(turned | forms.turned)
         return np.asarray((most[:, 1:] < forms.only).all(axis=1) & inside)
@@ -190,7 +191,7 @@ class Following:
             ahead += np.einsum("nmk,nk->nm", own[:, :, self.still[1:]], along[:, self.still[1:]])
             wide = np.concatenate([own[:, :, self.free], ahead[:, :, None]], axis=2)
             back = wide.transpose(0, 2, 1)
-            step = _tangent(wide)[0] * by[:, None] if k == 0 else -(back @ _solved(wide @ back, error[:, :, None]))[:, :, 0]
+            step = tangents(wide)[0] * by[:, None] if k == 0 else -(back @ solved(wide @ back, error[:, :, None]))[:, :, 0]
             z[:, [*self.free, -1]] += step
             z[:, -1] = np.rint(z[:, -1] * SEGMENT) / SEGMENT
         z[:, self.free] = np.round(z[:, self.free] / UNIT) * UNIT
@@ -211,7 +212,7 @@ class Following:
                 error, slope = self.missed(self.moved(now), target)
                 if np.abs(error).max(initial=0.0) < _NEAR:
                     break
-                now[:, self.free] -= np.clip(_solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+                now[:, self.free] -= np.clip(solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
             met = (np.abs(error) < _NEAR).all(axis=1) & ((now >= low) & (now <= high)).all(axis=1)
             met &= (np.abs(now - q[some]) < _JUMP).all(axis=1)
             q[some[met]], at[some[met]] = now[met], to[met]
@@ -245,31 +246,44 @@ class Following:
         error, slope = at[0] - target[0], at[3].transpose(0, 2, 1)
         if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
-            error = np.concatenate([error, _axial(off)], axis=1)
-            slope = np.concatenate([slope, _onto(off) @ at[2].transpose(0, 2, 1)], axis=1)
+            turned = (sideways(target) @ at[1][:, :, 2:])[:, :, 0] if self._pointing else axial(off)
+            error = np.concatenate([error, turned], axis=1)
+            turns = sideways(target) @ swept(at) if self._pointing else onto(off) @ at[2].transpose(0, 2, 1)
+            slope = np.concatenate([slope, turns], axis=1)
         return error[:, self._rows], slope[:, self._rows]
+
+    def straight(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
+        """(N,) 1 + 2 cos of the angle by which tools are turned from what is wanted."""
+        if self._pointing:
+            return np.asarray(1 + 2 * np.einsum("ni,ni->n", at[1][:, :, 2], np.broadcast_to(target[1], at[1].shape)[:, :, 2]))
+        return np.asarray(np.einsum("nij,nij->n", at[1], np.broadcast_to(target[1], at[1].shape)))
 
     def _theirs(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
         """Slopes (N, m, n) by the healthy arm's joints."""
         slope = -target[3].transpose(0, 2, 1)
         if self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
-            slope = np.concatenate([slope, -_onto(off) @ off @ target[2].transpose(0, 2, 1)], axis=1)
+            turns = sideways(target) @ swept(target) if self._pointing else onto(off) @ off @ target[2].transpose(0, 2, 1)
+            slope = np.concatenate([slope, -turns], axis=1)
         return np.asarray(slope[:, self._rows])
 
     def _bent(self, at: tuple[Array, ...], target: tuple[Array, ...], d: Array) -> Array:
         """Second derivatives (N, m, c, c) along the columns of d."""
         n, ours, theirs = self.n, d[:, : self.n], d[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
-        both = _twice(at[2], at[3], ours) - _twice(target[2], target[3], theirs)
-        if self.rotated:
+        both = twice(at[2], at[3], ours) - twice(target[2], target[3], theirs)
+        if self._pointing:
+            turns = (twice(x[2], swept(x).transpose(0, 2, 1), moves) for x, moves in ((at, ours), (target, theirs)))
+            rows = np.einsum("nri,nicd->nrcd", sideways(target), next(turns) - next(turns))
+            both = np.concatenate([both, rows], axis=1)
+        elif self.rotated:
             off = at[1] @ target[1].transpose(0, 2, 1)
             axes = np.concatenate([at[2], -(off[:, None] @ target[2][..., None])[..., 0][:, ::-1]], axis=1)
             moves = np.concatenate([ours, theirs[:, ::-1]], axis=1)
             before = np.cumsum(axes[:, :, None] * moves[..., None], axis=1)  # (N, 2n, c, 3)
             last = before - axes[:, :, None] * moves[..., None] / 2  # a joint with itself counts half
             turned = np.cross(axes[:, :, None, :], off.transpose(0, 2, 1)[:, None])  # rows: z x each column of off
-            later = _onto(turned.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(len(off), 2 * n, 3, 3)
+            later = onto(turned.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(len(off), 2 * n, 3, 3)
             half = np.einsum("nkri,nkai,nkb->nrab", later, last, moves, optimize=True)
             both = np.concatenate([both, half + half.transpose(0, 1, 3, 2)], axis=1)
         return np.asarray(both[:, self._rows])
@@ -338,7 +352,7 @@ class Following:
     def _forward(self, given: _Bounds, half: Array, own: Array, place: Array) -> Flags:
         """Whether turned cells only go forward on the path, and end within the segment, ``place`` (N,) from the end of that."""
         slope = self._slopes(given, half)
-        moves = _solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
+        moves = solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
         slower = (np.abs(own[:, -1, -self.m :]) * moves).sum(axis=1)
         off = (np.abs(own[:, -1]) * half).sum(axis=1)
         fine = (moves >= 0).all(axis=1) & (_MARGIN * slower < own[:, -1, 1])
@@ -359,34 +373,3 @@ class _Bounds:
     def take(self, rows: Ints) -> _Bounds:
         """Of some of them."""
         return _Bounds(*(getattr(self, field.name)[rows] for field in fields(self)))
-
-
-def _tangent(wide: Array) -> tuple[Array, Array]:
-    """Unit vectors (N, m + 1) that matrices (N, m, m + 1) take to 0, the last number positive, and pseudo-inverses."""
-    u, sizes, v = np.linalg.svd(wide)
-    tangent, across = v[:, -1], v[:, :-1].transpose(0, 2, 1) / np.maximum(sizes, 1e-14)[:, None] @ u.transpose(0, 2, 1)
-    return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(across)
-
-
-def _twice(axes: Array, columns: Array, moves: Array) -> Array:
-    """(N, 3, c, c) second derivatives of a place along the columns of moves (N, n, c)."""
-    steps = axes[:, :, None] * moves[..., None]
-    last = np.cumsum(steps, axis=1) - steps / 2
-    half = np.cross(last[:, :, :, None], (columns[:, :, None] * moves[..., None])[:, :, None]).sum(axis=1)
-    return np.asarray((half + half.transpose(0, 2, 1, 3)).transpose(0, 3, 1, 2))
-
-
-def _axial(turn: Array) -> Array:
-    """(N, 3) the axial vectors of rotations."""
-    twice = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1)
-    return np.asarray(twice / 2)
-
-
-def _onto(turn: Array) -> Array:
-    """(N, 3, 3) what takes a to the axial vector of [a] R."""
-    return np.asarray((np.trace(turn, axis1=1, axis2=2)[:, None, None] * np.eye(3) - turn) / 2)
-
-
-def _solved(matrix: Array, right: Array) -> Array:
-    """With a matrix that is nearly singular, something large."""
-    return np.asarray(np.linalg.solve(matrix + 1e-14 * np.eye(matrix.shape[-1]), right))

@@ -105,12 +105,12 @@ class March:
         while monotonic() < until and not stop():
             if self.nodes < self._most:
                 self._filled()
-            if self._moving:
+            if self._hopeless:  # it takes little
+                self._refuted(self._hopeless.pop())
+            elif self._moving:
                 self._moved()
             elif self._failed:
                 self._halved()
-            elif self._hopeless:
-                self._refuted(self._hopeless.pop())
             else:
                 break
             tell()

@@ -109,7 +109,11 @@ def _followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
     others = [k for k in range(claim.arm.n) if k != joint]
     if len(others) == len(rows):
         return ()
-    slopes = claim.arm.jacobian(claim.knots)[:, rows]
+    slopes = claim.arm.jacobian(claim.knots)
+    if claim.task == "pointing":  # turns about the tool's own axes
+        tools = claim.arm.forward_kinematics(claim.knots)[:, :3, :3]
+        slopes = np.concatenate([slopes[:, :3], tools.transpose(0, 2, 1) @ slopes[:, 3:]], axis=1)
+    slopes = slopes[:, rows]
     choices = list(combinations(others, len(others) - len(rows)))
     least = [np.linalg.svd(np.delete(slopes, [joint, *left], axis=2), compute_uv=False)[:, -1].min() for left in choices]
     return choices[int(np.argmax(least))]

@@ -176,7 +176,7 @@ class Rings:
         at_last = f.moved(q)
         good = (np.abs(f.missed(at_last, target)[0]) < _MET).all(axis=1) & ((q >= low) & (q <= high))[:, f.free].all(axis=1)
         if f.rotated:
-            good &= np.einsum("nij,nij->n", at_last[1], np.broadcast_to(target[1], at_last[1].shape)) > 0
+            good &= f.straight(at_last, target) > 1
         return np.asarray(good.reshape(count, -1).any(axis=1))
 
     def _tree(self, begin: int, stop: int, at: int) -> tuple[Halving, bool]:

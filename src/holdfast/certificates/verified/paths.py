@@ -20,8 +20,8 @@ Slab = tuple[int, tuple[int, int], Ints, Ints]  # the lock; its ends; of its cel
 Never = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
 
 SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
-ROWS = {"planar": "xy", "planar-pose": "xya", "position": "xyz", "pose": "xyz"}  # axes of a target of each
-FREE = {"planar": 2, "planar-pose": 3, "position": 3, "pose": 6}  # joints that the rows of each take
+ROWS = {"planar": "xy", "planar-pose": "xya", "position": "xyz", "pointing": "xyz", "pose": "xyz"}  # axes of a target of each
+FREE = {"planar": 2, "planar-pose": 3, "position": 3, "pointing": 5, "pose": 6}  # joints that the rows of each take
 MOST_SEGMENTS, MOST_CELLS, MOST_TURNING = 1 << 14, 1 << 24, 32
 SHARE = r"\d{1,60}/[1-9]\d{0,60}"
 
@@ -58,6 +58,7 @@ def check(document: dict[str, Any]) -> None:
         within([[x, x] for x in knot], document["limits"], "a knot")
         need(all(abs(real(x)) < 7 for x in knot), "a joint of a knot is beyond 7 rad or m")
     need(all(0 <= real(x) <= 0.1 for x in document["tube"]), "a tube is from 0 to 0.1 m and rad")
+    need(task != "pointing" or not any(map(real, document["tube"])), "there is no tube around a pointing path")
     need(len(document["pairs"]) <= SPLIT, f"there are more than {SPLIT} pairs of points")
     need(document["during"][0] < document["during"][1], "during must not be empty")
     locked = [lock["joint"] for lock in document["locks"]]

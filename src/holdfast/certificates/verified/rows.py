@@ -3,6 +3,7 @@
 Rows of a rotation are <W, E>, the sum of products of entries, with E the rotation from the target to the tool and W fixed
 matrices: with a pose the axial part (E - E')/2, in the plane the third row of it; where only the tool's axis counts, two rows
 t'E d with d the axis that is wanted and t across it. With a before b in the chain, E changes by [a]E, and twice by [a][b]E.
+Between two chains t is fixed, and the rows are what the axis of the one goes along t less that of the other.
 A last row is cos(angle) - 1 of what is left: the others are 0 for half a turn as well, and this one tells it from none.
 """
 
@@ -43,7 +44,8 @@ class Rows:
         self._weights = Balls(np.concatenate([skew[2:] if kind == "plane" else skew, [np.eye(3) / 2]]))
         if kind == "axis" and self._wanted is not None:
             self._weights, self._less = times("ir,j->rij", self._wanted, self._wanted[:, 2]), 1.0
-        self.m = self.linear + (len(self._weights.at) - 1) * self.rotated
+        self._axis = kind == "axis"
+        self.m = self.linear + (2 if self._axis else (len(self._weights.at) - 1) * self.rotated)
 
     def error(self, moved: Moved, target: list[Array]) -> tuple[Balls, Balls, Balls]:
         """The rows (N, m), with that of the angle behind them where the tool's rotation counts, and two derivatives.
@@ -64,18 +66,21 @@ class Rows:
 
     def between(self, moved: Moved, goal: Moved) -> tuple[Balls, Balls, Balls]:
         """The same rows of the tool of a chain from that of another, by the joints of the one, then of the other backwards."""
-        slopes, second = point_derivatives(moved.spin, moved.columns)
-        theirs, twice = point_derivatives(goal.spin, goal.columns)
-        linear, n = slice(self.linear), slopes.at.shape[2]
-        form = (moved.tip + -goal.tip)[:, linear], joined(slopes, -theirs[:, :, ::-1])[:, linear]
-        made = [np.zeros((len(slopes.at), self.linear, 2 * n, 2 * n)) for _ in range(2)]
-        for whole, one, other in ((made[0], second.at, -twice.at), (made[1], second.off, twice.off)):
-            whole[:, :, :n, :n], whole[:, :, n:, n:] = one[:, linear], other[:, linear, ::-1, ::-1]
+        linear, place = slice(self.linear), _both(moved, moved.columns, goal, goal.columns)
+        form = (moved.tip + -goal.tip)[:, linear], place[0][:, linear], place[1][:, linear]
+        if self._axis:  # fixed vectors across the axis that is wanted, and how far the tool's goes along them
+            across, a, b = Balls(goal.turn.at[:, :, :2]), moved.turn[:, :, 2], goal.turn[:, :, 2]
+            columns = (times("nkij,nj->nki", crossed(tool.spin), axis) for tool, axis in ((moved, a), (goal, b)))
+            first, second = _both(moved, next(columns), goal, next(columns))
+            less = stacked([times("ni,ni->n", a, b) + Balls(-np.ones(len(a.at)))], 1)
+            error = joined(joined(form[0], times("nir,ni->nr", across, a + -b)), less)
+            rows = times("nir,nij->nrj", across, first), times("nir,nijk->nrjk", across, second)
+            return error, under(form[1], rows[0]), under(form[2], rows[1])
         if not self.rotated:
-            return *form, Balls(*made)
+            return form
         off = times("nij,nkj->nik", moved.turn, goal.turn)
         back = -times("nij,nkj->nki", off, goal.spin)[:, ::-1]
-        return self._joined((*form, Balls(*made)), off, under(moved.spin, back))
+        return self._joined(form, off, under(moved.spin, back))
 
     def _joined(self, form: tuple[Balls, Balls, Balls], off: Balls, spin: Balls) -> tuple[Balls, Balls, Balls]:
         """With the rows of a rotation (N, 3, 3), and two derivatives by turns about axes (N, V, 3), the outermost first."""
@@ -102,6 +107,16 @@ class Rows:
 def point_derivatives(spin: Balls, columns: Balls) -> tuple[Balls, Balls]:
     """Slopes (N, 3, V) of a point, and its second derivatives (N, 3, V, V): z_a x J_b by a and a later b."""
     return columns.transposed(0, 2, 1), mirrored(times("nari,nbi->nrab", crossed(spin), columns))
+
+
+def _both(moved: Moved, columns: Balls, goal: Moved, theirs: Balls) -> tuple[Balls, Balls]:
+    """Derivatives of a vector of one chain less that of another, by the joints of both, those of the other backwards."""
+    (slopes, second), (back, twice) = point_derivatives(moved.spin, columns), point_derivatives(goal.spin, theirs)
+    n = slopes.at.shape[2]
+    made = [np.zeros((*slopes.at.shape[:2], 2 * n, 2 * n)) for _ in range(2)]
+    for whole, one, other in ((made[0], second.at, -twice.at), (made[1], second.off, twice.off)):
+        whole[:, :, :n, :n], whole[:, :, n:, n:] = one, other[:, :, ::-1, ::-1]
+    return joined(slopes, -back[:, :, ::-1]), Balls(*made)
 
 
 def mirrored(made: Balls) -> Balls:

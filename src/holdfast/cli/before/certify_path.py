@@ -35,7 +35,9 @@ def path(
         str,
         typer.Option("--tube", help="How far off the path may be, m, and rad where the tool turns; or one number for both."),
     ] = "0",
-    task: Annotated[str, typer.Option("--task", help="What follows the path: pose, position, planar or planar-pose.")] = "pose",
+    task: Annotated[
+        str, typer.Option("--task", help="What follows the path: pose, position, pointing, planar or planar-pose.")
+    ] = "pose",
     segments: Annotated[
         int | None, typer.Option("--segments", help="Use so many of the motion. Default: all.", show_default=False)
     ] = None,

@@ -58,7 +58,9 @@ def new(
     at: Annotated[str | None, typer.Option("--at", help="Joint values, rad. Default: zeros.", show_default=False)] = None,
     name: Annotated[str, typer.Option("--name", help="Id of the record. Default: from the class.", show_default=False)] = "",
     by: Annotated[str, typer.Option("--by", help="Who found it.")] = "anonymous",
-    how: Annotated[str, typer.Option("--how", help="How, so that others can follow.", show_default=False)] = "",
+    how: Annotated[
+        str, typer.Option("--how", help="How, so that others can follow. Default: not said.", show_default=False)
+    ] = "",
 ) -> None:
     """Print an arm as a record: a file to check, to keep and to submit.
 

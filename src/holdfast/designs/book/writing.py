@@ -15,7 +15,7 @@ from holdfast.arms import load, names
 from holdfast.arms.dh_file import text
 from holdfast.arms.dh_rows import dh_table
 from holdfast.ceilings.ceiling import look_up
-from holdfast.designs.book.entries import Record, of_content
+from holdfast.designs.book.entries import Record, digest_of, of_content
 from holdfast.designs.book.measuring import jacobian_by_differences, jacobian_of, least_left, null_space_of
 from holdfast.errors import InputError
 from holdfast.files import yaml
@@ -80,4 +80,5 @@ def new_record(
         f"check: {{command: holdfast records check {name}, tolerance: {tolerance}}}\n"
         "licence: CC0-1.0\n"
     )
+    made += f"digest: {digest_of(made)}\n"
     return of_content(yaml.parse(made, ""), made, name)

@@ -26,6 +26,7 @@ int main(int count, char **words) {
     for (int k = 0; k < NAME::joints; ++k) position[k] = &told[k], velocity[k] = &command[k];
     NAME::Options options;
     options.efforts = false; /* this arm has none */
+    options.reacts = record == nullptr; /* what is recorded to calibrate must not be changed by old bounds */
     NAME::TolerantController controller(options);
     if (controller.on_configure() != NAME::Return::ok) return 2;
     controller.assign(position, nullptr, velocity);

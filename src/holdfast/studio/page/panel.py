@@ -17,6 +17,7 @@ from holdfast.studio.page.upload import ARMS, MOTIONS
 from holdfast.studio.scene.bars import bars_html, losses_html
 from holdfast.studio.scene.machine import Machine, Reading
 from holdfast.studio.state import CONDITIONS, State
+from holdfast.studio.watching import KINDS, LATEST, Watched, watched_html
 
 Array = NDArray[np.float64]
 Handler = Callable[[Any], None]
@@ -57,6 +58,8 @@ class Panel:
             self._choose_tab(state)
         with tabs.add_tab("Motion"):
             self._motion_tab(state)
+        with tabs.add_tab("Watch"):
+            self._watch_tab(arm, state)
         with tabs.add_tab("Region"):
             self._region_tab(state)
         with tabs.add_tab("File"):
@@ -130,6 +133,19 @@ class Panel:
         self.play = self.buttons["play"][0]
         self._button("Clear", "clear")
 
+    def _watch_tab(self, arm: Arm, state: State) -> None:
+        self.gui.add_html(
+            _line("A joint fails while the arm moves to the target: what does a monitor make of it? Time is in the tab Motion.")
+        )
+        kind = self.gui.add_dropdown("fault", tuple(KINDS), initial_value=state.fault[0])
+        joint = self.gui.add_dropdown("of joint", arm.joint_names, initial_value=state.fault[1])
+        onset = self.gui.add_slider("begins after, s", 0.0, LATEST, 0.1, state.fault[2])
+        for handle in (kind, joint, onset):
+            self._on(handle.on_update, "fault", lambda _: (_chosen(kind), _chosen(joint), float(onset.value)))
+        self._button("Move, fail and watch", "watch")
+        self.watched = self.gui.add_html("", visible=False)
+        self._button("Clear", "clear")
+
     def _region_tab(self, state: State) -> None:
         self._button("Assess around the tool", "region")
         if state.region is not None:
@@ -173,6 +189,12 @@ class Panel:
         content = _line(text, bad)
         if self.near.content != content:
             self.near.content = content
+
+    def tell_watched(self, found: Watched | None, state: State) -> None:
+        """What a monitor saw until the time of the state."""
+        content = "" if found is None else watched_html(found, state.names, state.time)
+        if self.watched.content != content:
+            self.watched.content, self.watched.visible = content, content != ""
 
     def read(self, reading: Reading, state: State) -> None:
         """The live numbers."""

@@ -1,0 +1,73 @@
+"""A fault that is injected in the studio, and what the monitor makes of it: computed, and in the page."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from studio_pages import wait_for
+
+import axe
+from holdfast.errors import InputError
+from holdfast.studio import State
+from holdfast.studio.motions import Motion
+from holdfast.studio.watching import Watched, watched, watched_html
+
+pytest.importorskip("mujoco")
+NAMES = ("a", "b")
+
+
+def some(**more):
+    """A lock of b at 1 s that is noticed at 1.2 s and named at 1.22 s, of 4 s."""
+    time = np.linspace(0, 4, 81)
+    values = np.stack((0.3 + 0 * time, np.where(time < 1, 0.2, 9.0)), axis=1)
+    values[7, 0] = np.nan
+    given = {
+        "onset": 1.0,
+        "alarm": 1.2,
+        "joint": 1,
+        "named": 1.22,
+        "said": ((1.32, "b is <locked>"),),
+        "untold": ("a did not",),
+    }
+    return Watched(motion=Motion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more})
+
+
+def test_what_is_known_comes_with_time():
+    before, noticed, known, end = (watched_html(some(), NAMES, t) for t in (0.9, 1.21, 1.5, 4.0))
+    assert "No alarm so far" in before
+    assert "data-alarm" not in before
+    assert "over: none" in before
+    assert "Alarm 200 ms after the fault; the joint: not known yet" in noticed
+    assert "hf-named" not in noticed
+    assert "the joint: b" in known
+    assert "b is &lt;locked&gt;" in known
+    assert known.count("hf-named") == 1
+    assert "a did not" not in known
+    assert "a did not" in end
+    assert "before any fault" in watched_html(some(onset=np.inf), NAMES, 4.0)
+    points = [re.findall(r'points="([^"]*)"', text)[0].split() for text in (before, end)]
+    assert len(points[0]) < len(points[1]) == 80  # one is not a number
+
+
+def test_there_must_be_a_target():
+    with pytest.raises(InputError, match="there is no target"):
+        watched(None, State("x", NAMES, (0.0, 0.0)), lambda *_: None)
+
+
+def test_a_fault_in_the_page_is_named(studio, visit):
+    page, window = visit(studio("panda", task="position"))
+    page.get_by_role("tab", name="Watch").click()
+    button = page.get_by_role("button", name="Move, fail and watch")
+    wait_for(page, button.is_enabled)
+    button.click()
+    wait_for(page, lambda: window.watched is not None, 60)
+    window.ask("time", 8.0)
+    wait_for(page, lambda: page.locator(".hf-watch[data-alarm]").count() == 1)
+    wait_for(page, lambda: "panda_joint4 is locked" in page.locator(".hf-watch").inner_text())
+    assert "over: panda_joint4" in page.locator(".hf-watch svg").first.get_attribute("aria-label")
+    assert axe.serious(page) == []
+    page.get_by_role("button", name="Clear").first.click()
+    wait_for(page, lambda: page.locator(".hf-watch").count() == 0)
+    assert "--show" not in window.state.to_command()
