@@ -52,7 +52,7 @@ class Policy:
             error = passed[-1] - actions[rows] / self.limit
             left += float(np.square(error).mean()) / steps
             rate = RATE * (1 - (step - 1) / steps) * (1 - FADE[1] ** step) ** 0.5 / (1 - FADE[0] ** step)
-            for k, slope in self._slopes(passed, error * np.float32(2 / batch)):
+            for k, slope in self._slopes(passed, np.asarray(error * (2 / batch), dtype=np.float32)):
                 means[k] += (1 - FADE[0]) * (slope - means[k])
                 squares[k] += (1 - FADE[1]) * (slope * slope - squares[k])
                 self.layers[k] -= np.float32(rate) * means[k] / (np.sqrt(squares[k]) + np.float32(1e-8))
