@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 import holdfast as hf
 from holdfast.probability import Interval
+from papers.faults.store import Store
 
 HEAD = [
     "| task, arm, configurations | testable | found | wrong joint | tool, mm, median / 95 % | s, likewise | nothing locked |",
@@ -57,9 +60,12 @@ def row(name: str, task: str, zero: tuple[int, ...], count: int, seed: int) -> s
     return f"| {' | '.join(cells)} |"
 
 
-def table(count: int) -> list[str]:
+def table(store: Store, count: int) -> list[str]:
     """All lines."""
-    rows = [row(name, task, zero, max(2, round(share * count)), k) for k, (name, task, zero, share) in enumerate(CASES)]
+    rows = []
+    for k, (name, task, zero, fraction) in enumerate(CASES):
+        size = max(2, round(fraction * count))
+        rows.append(store.get(f"probe {k} {size}", partial(row, name, task, zero, size, k)))
     return [
         "## Self-motions that find the locked joint",
         "",

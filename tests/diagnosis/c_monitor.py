@@ -20,6 +20,7 @@ FLAGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-co
 SANITISED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
 CYCLES, REARMED, TOLERANCE = 400, 300, 1e-12
+SENSORS = hf.diagnosis.Sensors(latency=0.003)
 # Reads records, one cycle after the other in doubles: q, reference, whether there are torques and they, whether there is a pose
 # and that; a cycle that begins with a number above 1e300 begins a new record. Writes r, excess and verdict.
 HARNESS = """
@@ -28,7 +29,7 @@ HARNESS = """
 enum { N = MONITOR_JOINTS, AGAIN = 300 };
 static monitor_state state;
 int main(void) {
-    double in[3 * N + 18], out[2 * N + 6];
+    double in[3 * N + 18], out[2 * N + 7];
     monitor_verdict told;
     int k, cycle = 0;
     monitor_init(&state);
@@ -39,8 +40,8 @@ int main(void) {
         for (k = 0; k < N; ++k) { out[k] = state.r[k]; out[N + k] = state.over_y[k]; }
         out[2 * N] = state.over_w;
         out[2 * N + 1] = told.alarm; out[2 * N + 2] = told.time; out[2 * N + 3] = told.joint; out[2 * N + 4] = told.kind;
-        out[2 * N + 5] = told.loss;
-        fwrite(out, sizeof *out, 2 * N + 6, stdout);
+        out[2 * N + 5] = told.loss; out[2 * N + 6] = monitor_stale(&state);
+        fwrite(out, sizeof *out, 2 * N + 7, stdout);
     }
     return 0;
 }
@@ -49,7 +50,7 @@ int main(void) {
 
 def built(arm, bounds, folder, flags=SANITISED):
     """The program."""
-    hf.diagnosis.export_c(arm, bounds, folder)
+    hf.diagnosis.export_c(arm, bounds, folder, sensors=SENSORS)
     (folder / "harness.c").write_text(HARNESS, encoding="utf-8")
     command = [COMPILER, *FLAGS, *flags, "monitor.c", "harness.c", "-lm", "-o", "harness"]
     subprocess.run(command, cwd=folder, check=True, timeout=300)
@@ -64,6 +65,7 @@ def bounds_of(arm):
         joints=arm.joint_names,
         rate=1000.0,
         torque=np.linspace(4.0, 1.0, n),
+        change=np.linspace(2.0, 0.6, n),
         tracking=np.linspace(4e-3, 8e-3, n),
         position=2e-3,
         angle=4e-3,
@@ -78,7 +80,7 @@ def bounds_of(arm):
     )
 
 
-def random_record(arm, rng):
+def random_record(arm, rng, wrong):
     """A motion with the torques of the model, and something wrong with a joint: q, references, torques, poses (NaN: none)."""
     n, t = arm.n, np.arange(CYCLES) / 1000
     low, high = np.where(np.isfinite([arm.lower, arm.upper]), [arm.lower, arm.upper], [[-2.0], [2.0]])
@@ -86,7 +88,7 @@ def random_record(arm, rng):
     begun = t - 0.05 * np.tanh(t / 0.05)  # from rest
     reference = middle + rng.uniform(0.05, 0.3, n) * np.sin(begun[:, None] * pace + rng.uniform(0, 6, n))
     true = reference + rng.normal(0, 3e-4, n)
-    i, onset, wrong = rng.integers(n), rng.integers(60, 150), rng.integers(8)
+    i, onset = rng.integers(n), rng.integers(60, 150)
     rates = np.gradient(true, 1e-3, axis=0)
     tau = arm.inverse_dynamics(true, rates, np.gradient(rates, 1e-3, axis=0)) + rng.normal(0, 0.05, true.shape)
     told, after = true + rng.normal(0, 2e-5, true.shape), t[onset:] - t[onset]
@@ -104,8 +106,9 @@ def random_record(arm, rng):
     elif wrong == 5:  # a push
         force = rng.normal(0, 30, 3)
         tau[onset:] -= np.einsum("tij,i->tj", arm.jacobian(true[onset:])[:, :3], force)
-    elif wrong == 6:  # the tool is not where it should be, and samples are missing
+    elif wrong == 6:  # samples are missing, some in a row
         told[rng.integers(0, CYCLES, 6)] = np.nan
+        told[onset : onset + rng.integers(1, 120)] = np.nan
     poses = np.full((CYCLES, 4, 4), np.nan)
     if rng.uniform() < 0.7:
         every = rng.integers(1, 12)
@@ -126,7 +129,8 @@ def said_by_python(monitor, record):
         v = monitor.step(told[k], reference[k], None if tau is None else tau[k], pose=pose)
         joint = -1 if v.joint is None else names.index(v.joint)
         loss = -1 if np.isnan(v.loss) else v.loss
-        last = [v.alarm, v.time if v.alarm else 0, joint, KINDS.index(v.kind), loss]
+        stale = ("joints" in monitor.stale) + 2 * ("tool" in monitor.stale)
+        last = [v.alarm, v.time if v.alarm else 0, joint, KINDS.index(v.kind), loss, stale]
         rows.append([*monitor._r, *monitor._over_y, monitor._over_w, *last])
     return np.array(rows, dtype=float)
 
@@ -154,9 +158,10 @@ const row=input.subarray(i,i+wide);
 if(row[0]>1e300){{monitor=new Monitor();cycle=0;continue;}}
 if(++cycle==={again})monitor.rearm();
 const torque=row[2*n]>0?row.subarray(2*n+1,3*n+1):null,pose=row[3*n+1]>0?row.subarray(3*n+2):null;
-const t=monitor.step(row.subarray(0,n),row.subarray(n,2*n),torque,pose);
-output.set([...monitor.r,...monitor.overY,monitor.overW,t.alarm?1:0,t.time,t.joint,t.kind,t.loss],at);
-at+=2*n+6;
+const t=monitor.step(row.subarray(0,n),row.subarray(n,2*n),torque,pose),stale=monitor.stale();
+output.set([...monitor.r,...monitor.overY,monitor.overW,t.alarm?1:0,t.time,t.joint,t.kind,t.loss,
+stale.includes("joints")+2*stale.includes("tool")],at);
+at+=2*n+7;
 }}
 """
 
@@ -167,28 +172,26 @@ def run_in_node(arm, bounds, records):
 
     data = np.frombuffer(b"".join(as_bytes(arm, record) for record in records))
     script = IN_NODE.format(n=arm.n, again=REARMED)
-    size = len(records) * CYCLES * (2 * arm.n + 6)
-    out = javascript.run(script, data, size, monitor=hf.diagnosis.javascript_of(arm, bounds))
-    return out.reshape(len(records), CYCLES, 2 * arm.n + 6)
+    size = len(records) * CYCLES * (2 * arm.n + 7)
+    out = javascript.run(script, data, size, monitor=hf.diagnosis.javascript_of(arm, bounds, sensors=SENSORS))
+    return out.reshape(len(records), CYCLES, 2 * arm.n + 7)
 
 
 def compared(arm, program, count, rng, bounds, *, node=False):
     """The largest difference in units of what is compared, verdicts that differ, and kinds that were named; in Node too."""
-    monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds), 0.0, 0, set()
+    monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds, sensors=SENSORS), 0.0, 0, set()
     n = arm.n
-    records = [random_record(arm, rng) for _ in range(count)]
+    records = [random_record(arm, rng, k % 8) for k in range(count)]  # each of what can be wrong
     ours = [said_by_python(monitor, record) for record in records]
     pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
     for record, one in zip(records, ours, strict=True):
         done = subprocess.run([str(program)], input=as_bytes(arm, record), capture_output=True, check=True)
-        pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 6)))
+        pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 2 * n + 7)))
     for one, theirs in pairs:
-        ours = one
-        size = np.r_[np.maximum(np.abs(ours[:, :n]).max(axis=0), bounds.torque), np.ones(n + 1)]
-        worst = max(worst, float((np.abs(ours - theirs)[:, : 2 * n + 1] / size).max()))
-        same = (ours[:, 2 * n + 1 : -1] == theirs[:, 2 * n + 1 : -1]).all() and np.allclose(
-            ours[:, -1], theirs[:, -1], atol=1e-9
-        )
+        size = np.r_[np.maximum(np.abs(one[:, :n]).max(axis=0), bounds.torque), np.ones(n + 1)]
+        worst = max(worst, float((np.abs(one - theirs)[:, : 2 * n + 1] / size).max()))
+        whole = [k for k in range(2 * n + 1, 2 * n + 7) if k != 2 * n + 5]
+        same = (one[:, whole] == theirs[:, whole]).all() and np.allclose(one[:, 2 * n + 5], theirs[:, 2 * n + 5], atol=1e-9)
         unlike += not same
         last = theirs[REARMED - 2]
         named.add(KINDS[int(last[2 * n + 4])] if last[2 * n + 1] else "none")

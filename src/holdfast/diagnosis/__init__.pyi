@@ -17,5 +17,7 @@ from holdfast.diagnosis.foresight.separation import self_motion_rates as self_mo
 from holdfast.diagnosis.kinds import Verdict as Verdict
 from holdfast.diagnosis.monitor import Monitor as Monitor
 from holdfast.diagnosis.monitor import diagnose as diagnose
+from holdfast.diagnosis.rehearsal import Push as Push
 from holdfast.diagnosis.rehearsal import rehearse as rehearse
+from holdfast.diagnosis.rehearsal import rehearse_many as rehearse_many
 from holdfast.diagnosis.sensors import Sensors as Sensors

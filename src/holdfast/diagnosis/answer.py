@@ -78,7 +78,7 @@ class Diagnosis(Result):
         elif v.kind == "contact":
             lines = [f"alarm at {v.time:.4g} s: something pushed the arm; no joint is to blame"]
         else:
-            lost = f" (it gives {1 - v.loss:.0%} of its torque)" if v.kind == "weak" else ""
+            lost = f" (it gives {1 - v.loss:.0%} of its torque, ± {v.uncertainty:.0%})" if v.kind == "weak" else ""
             lines = [f"alarm at {v.time:.4g} s: {v.joint or 'a joint that is not known'} {_KINDS[v.kind]}{lost}"]
         lines += list(v.evidence)
         others = [kind for kind in v.candidates if kind != v.kind]

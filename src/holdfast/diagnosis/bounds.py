@@ -38,6 +38,7 @@ class Bounds(Result):
         joints: Names.
         rate: Samples per second of the records.
         torque: (n,) largest residual torque, N m and N; infinite without torques.
+        change: (n,) largest distance of the residual torque from its level: its average of the last 0.15 s, N m and N.
         tracking: (n,) largest distance of a joint from its reference, rad and m.
         position: Largest distance of the measured tool from the joints' one, m; infinite where it is not measured.
         angle: Likewise, rad.
@@ -55,6 +56,7 @@ class Bounds(Result):
     joints: tuple[str, ...]
     rate: float
     torque: Array
+    change: Array
     tracking: Array
     position: float
     angle: float
@@ -144,7 +146,8 @@ def load(file: str | Path) -> Bounds:
             raise ValueError
         none = {None: np.inf}
         data.setdefault("scales", [1.0] * len(data["joints"]))  # files of before
-        for name in ("torque", "tracking", "coulomb", "viscous", "scales", "speed"):
+        data.setdefault("change", data["torque"])
+        for name in ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed"):
             data[name] = np.array([none.get(x, x) for x in data[name]], dtype=np.float64)
         for name in ("position", "angle"):
             data[name] = none.get(data[name], data[name])
@@ -214,6 +217,7 @@ def calibrate(
             f"'{arm.joint_names[same[0]]}' never departs from its reference in the records; q_ref must be what the servos "
             "were to follow, not what the sensors told"
         )
+    change = factor * np.array([s.largest("change") for s in found]).max(axis=0)
     alarms: int | None = None
     if len(logs) > 1:
         alarms = 0
@@ -227,6 +231,7 @@ def calibrate(
         joints=arm.joint_names,
         rate=rate,
         torque=bounds[0],
+        change=change,
         tracking=bounds[1],
         position=float(bounds[2]),
         angle=float(bounds[3]),

@@ -22,7 +22,9 @@ ISOLATE, CLASSIFY = 0.020, 0.100  # s after the alarm, s after that
 AGAIN, WATCHED = 0.5, 2.0  # s after the alarm: the tool's pose may still call it a sensor, and may name that
 SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
 WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
-PUSHED = 8.0  # likewise a force at the tool explains the torques so much better than one joint
+_SAME = 1e-9  # of the largest: a direction in which a force loads no joint
+UNSURE = 0.7  # of a torque bound: a level of residuals follows them while all are below; healthy ones are below 1 / factor
+PUSHED = 4.0  # likewise a force at the far end of a link explains the torques so much better than one joint
 
 
 class Decision:
@@ -33,17 +35,27 @@ class Decision:
         bounds: Of the healthy arm.
         sensors: How good they are.
         time: Of the alarm, s.
+        level: (n,) of the residual torques before it, N m and N.
         torques: Whether torques are watched.
         tool: Whether the tool's pose is measured at all.
         tool_alone: Whether nothing but the tool's pose alarmed.
     """
 
     def __init__(
-        self, arm: Arm, bounds: Bounds, sensors: Sensors, *, time: float, torques: bool, tool: bool, tool_alone: bool
+        self,
+        arm: Arm,
+        bounds: Bounds,
+        sensors: Sensors,
+        *,
+        time: float,
+        level: Array,
+        torques: bool,
+        tool: bool,
+        tool_alone: bool,
     ) -> None:
         n, dt = arm.n, 1 / bounds.rate
         self._arm, self._bounds, self._noise = arm, bounds, sensors.joint
-        self._time, self._torques, self._tool = time, torques, tool
+        self._time, self._level, self._torques, self._tool = time, level, torques, tool
         self._split, self._last = cycles(ISOLATE, dt), cycles(ISOLATE + CLASSIFY, dt)
         self._again, self.ends = cycles(AGAIN, dt), cycles(WATCHED, dt)
         self.count = 0
@@ -101,13 +113,13 @@ class Decision:
             self._told = 0, np.inf
 
     def _isolate(self, q: Array) -> None:
-        """The joint with the largest residuals, unless a force at the tool explains the residual torques better than it."""
-        mean, bound = self._residual / self._split, SCALE * self._bounds.torque
+        """The joint with the largest residuals, unless a force on a link explains the residual torques better than it."""
         if self._torques:
-            self._push = _is_a_push(mean / bound, (self._arm.jacobian(q)[:3] / bound).T)
+            self._push = _is_a_push(self._arm, q, self._residual / self._split - self._level, SCALE * self._bounds.change)
         i, bounds = int(self._size.argmax()), self._bounds
-        both = float(bounds.torque[i]), float(bounds.tracking[i])
-        self._kinds = Kinds(i, coulomb=float(bounds.coulomb[i]), bounds=both, noise=self._noise, torques=self._torques)
+        both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
+        dry = float(bounds.coulomb[i])
+        self._kinds = Kinds(i, coulomb=dry, bounds=both, largest=healthy, noise=self._noise, torques=self._torques)
 
     def verdict(self, *, last: bool = False) -> Verdict:
         """What is known now.
@@ -118,7 +130,7 @@ class Decision:
         if self._suspect and (self.count >= self._split or last):
             return self._sensor()
         if self._push:
-            reason = ("a force at the tool explains all rows",)
+            reason = ("a force on a link explains all rows",)
             return Verdict(True, self._time, kind="contact", candidates=("contact",), evidence=reason)
         if self._kinds is None:
             largest = self._arm.joint_names[int(self._size.argmax())]
@@ -152,8 +164,20 @@ def cycles(seconds: float, dt: float) -> int:
     return max(1, round(seconds / dt))
 
 
-def _is_a_push(mean: Array, columns: Array) -> bool:
-    """Whether a force explains mean residual torques (n,) better than any joint alone, by its columns (n, 3)."""
-    force = np.linalg.lstsq(columns, mean, rcond=None)[0]
-    by_force = ((mean - columns @ force) ** 2).sum()
-    return bool(by_force + PUSHED < (mean**2).sum() - (mean**2).max())
+def _is_a_push(arm: Arm, q: Array, change: Array, scale: Array) -> bool:
+    """Whether a force at the far end of a link explains a change of residual torques better than any joint alone.
+
+    Args:
+        arm: The arm.
+        q: (n,) where it is, rad and m.
+        change: (n,) N m and N.
+        scale: (n,) its deviations.
+    """
+    ends, jacobian, rows = arm.frames(q)[2:, :3, 3], arm.jacobian(q), change / scale
+    least = np.inf
+    for k, end in enumerate(ends):
+        columns = (jacobian[:3] + np.cross(jacobian[3:].T, end - ends[-1]).T).T / scale[:, None]
+        columns[k + 1 :] = 0.0  # what carries the link alone feels it
+        force = np.linalg.lstsq(columns, rows, rcond=_SAME)[0]
+        least = min(least, float(((rows - columns @ force) ** 2).sum()))
+    return bool(least + PUSHED < (rows**2).sum() - (rows**2).max())

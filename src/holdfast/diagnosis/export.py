@@ -21,7 +21,8 @@ from holdfast.control.c_functions import Function, commented, filled, written
 from holdfast.control.export import check_name, quoted, version
 from holdfast.diagnosis import decision, kinds
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.observer import BAND, GAIN, SLIP, momentum_terms
+from holdfast.diagnosis.monitor import STALE
+from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
 from holdfast.files.output import put
@@ -100,8 +101,10 @@ def export_c(
     text_of = partial(filled, "holdfast.diagnosis", "c")
     texts = {
         f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_graph(arm, bounds, known, name)}\n'
+        + text_of("arithmetic.c", words)
+        + "\n"
         + text_of("monitor.c", constants),
-        f"{name}.h": f"{about}\n" + text_of("monitor.h", words),
+        f"{name}.h": f"{about}\n" + text_of("monitor.h", constants),
         f"{name}_example.c": text_of("monitor_example.c", words),
     }
     source, header, example = put(folder, texts)
@@ -123,11 +126,15 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "AGAIN": decision.AGAIN,
         "ENDS": decision.WATCHED,
         "CALM": CALM,
+        "LONGEST": STALE,
     }
     values = {
         "DT": dt,
         "BAND": min(1.0, BAND * dt),
         "LOW": min(1.0, GAIN * dt),
+        "KEEP": 1 - GAIN * dt,
+        "LEVEL": min(1.0, LEVEL * dt),
+        "UNSURE": decision.UNSURE,
         "GAIN": GAIN,
         "SLIP": SLIP,
         "SLOW": SLOW,
@@ -154,7 +161,8 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
     named |= {name: _number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
     named_kinds = ", ".join(map(quoted, _KINDS))
-    return {"WITH_TORQUES": torques, "KIND_WORDS": named_kinds, **{f"CONST_{name}": value for name, value in named.items()}}
+    words = {"WITH_TORQUES": torques, "KIND_WORDS": named_kinds, "LATE_CYCLES": str(round(sensors.latency * bounds.rate))}
+    return {**words, **{f"CONST_{name}": value for name, value in named.items()}}
 
 
 def _number(value: float) -> str:
@@ -169,8 +177,10 @@ def _functions(arm: Arm, bounds: Bounds) -> dict[str, Function]:
     """What is computed of the arm's equations, by the graph that the Python monitor has."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
-    there = [pose[:3, :3].T, pose[:3, 3]]
-    functions = {"tool": Function({"q": q}, {"there": there, "jacobian": [kinematics.jacobian(arm, q)]})}
+    moving, _ = kinematics.frames(arm, kinematics.joint_steps(arm, q))
+    ends = [*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1)]  # of links, from the tool
+    there = {"there": [pose[:3, :3].T, pose[:3, 3]], "jacobian": [kinematics.jacobian(arm, q)], "ends": ends}
+    functions = {"tool": Function({"q": q}, there)}
     if np.isfinite(bounds.torque).all():
         terms = zip(("p", "energy", "gravity"), momentum_terms(bounds.body(arm), q, v), strict=True)
         functions["momentum"] = Function({"q": q, "v": v}, {term: [x] for term, x in terms})
@@ -181,7 +191,8 @@ def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -
     """The monitor as a module of JavaScript that exports a class ``Monitor``: the same numbers and the same verdicts.
 
     ``monitor.step(q, reference, torque, pose)`` takes arrays, the last two or ``null``, and returns the verdict of C's struct:
-    ``{alarm, time, joint, kind, loss}``; ``monitor.kind()`` is the word. It is no certified safety function.
+    ``{alarm, time, joint, kind, loss}``; ``monitor.kind()`` is the word. ``monitor.stale()`` has the words of
+    :attr:`Monitor.stale`. It is no certified safety function.
 
     Args:
         arm: The arm.
@@ -199,6 +210,7 @@ def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -
     programs = [javascript(function.program(call), call) for call, function in _functions(arm, bounds).items()]
     arrays = {
         "torqueBound": bounds.torque,
+        "changeBound": bounds.change,
         "trackingBound": bounds.tracking,
         "weight": _weights(known),
         "viscous": bounds.viscous,
@@ -227,7 +239,7 @@ def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     text = written(functions)
     joints = ", ".join(quoted(x) for x in arm.joint_names)
     text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
-    text += _array("torque_bound", bounds.torque) + _array("tracking_bound", bounds.tracking)
+    text += "".join(_array(f"{x}_bound", getattr(bounds, x)) for x in ("torque", "change", "tracking"))
     text += _array("weight", _weights(sensors))
     text += _array("viscous", bounds.viscous) if "momentum" in functions else ""
     return text + _array("coulomb", bounds.coulomb)

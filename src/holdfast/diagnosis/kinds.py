@@ -28,6 +28,8 @@ class Verdict:
             ``sluggish`` (weak or more friction: where gravity is small both look alike), ``sensor`` (of the joint, or a clutch
             that slips), ``contact`` or ``unknown``.
         loss: Fraction of its torque that the motor lost; NaN where that is not the question.
+        uncertainty: By how much ``loss`` may be off while the residuals of a healthy arm stay within those of calibration:
+            large where the motor's torque is mostly friction, or the masses are not known.
         candidates: Kinds that remain possible.
         evidence: A phrase for each reason.
     """
@@ -38,6 +40,7 @@ class Verdict:
     joint: str | None = None
     kind: str = "unknown"
     loss: float = np.nan
+    uncertainty: float = np.nan
     candidates: tuple[str, ...] = ()
     evidence: tuple[str, ...] = ()
 
@@ -49,13 +52,16 @@ class Kinds:
         joint: Its number.
         coulomb: Its dry friction, N m or N.
         bounds: Of its residual torque, N m or N, and of its tracking, rad or m.
+        largest: Of a healthy arm's residual torques on this joint, N m or N.
         noise: Deviation of its sensor, rad or m.
         torques: Whether torques are watched.
     """
 
-    def __init__(self, joint: int, *, coulomb: float, bounds: tuple[float, float], noise: float, torques: bool) -> None:
+    def __init__(
+        self, joint: int, *, coulomb: float, bounds: tuple[float, float], largest: float, noise: float, torques: bool
+    ) -> None:
         self.joint, self._coulomb, self._bounds, self._noise, self._torques = joint, coulomb, bounds, noise, torques
-        self._count, self._behind = 0, 0.0
+        self._count, self._behind, self._largest, self._sum = 0, 0.0, largest, 0.0
         self._q, self._reference = [np.inf, -np.inf], [np.inf, -np.inf]
         self._asked, self._least = 0.0, np.inf
         self._rr = self._rt = self._rs = self._tt = self._ss = 0.0
@@ -75,7 +81,7 @@ class Kinds:
         self._reference = [min(self._reference[0], reference), max(self._reference[1], reference)]
         self._asked, self._least = max(self._asked, abs(torque - gravity)), min(self._least, abs(gravity))
         self._rr, self._rt, self._rs = self._rr + r * r, self._rt + r * torque, self._rs + r * slip
-        self._tt, self._ss = self._tt + torque * torque, self._ss + slip * slip
+        self._tt, self._ss, self._sum = self._tt + torque * torque, self._ss + slip * slip, self._sum + abs(torque)
 
     def named(self, unit: str, unless_seen: tuple[str, ...]) -> dict[str, Any]:
         """Kind, loss, candidates and evidence.
@@ -89,8 +95,11 @@ class Kinds:
         evidence = [f"it moved by {travel:.3g} {unit}, its reference by {wanted:.3g} {unit}"]
 
         def verdict(kind: str, candidates: tuple[str, ...], loss: float = np.nan) -> dict[str, Any]:
-            more = () if np.isnan(loss) else (f"its motor lost {loss:.0%} of its torque",)
-            return {"kind": kind, "loss": loss, "candidates": candidates, "evidence": (*evidence, *more)}
+            if np.isnan(loss):
+                return {"kind": kind, "candidates": candidates, "evidence": tuple(evidence)}
+            off = self._largest * self._sum / self._tt  # of -sum r tau / sum tau^2, where r is off by no more than `largest`
+            more = f"its motor lost {loss:.0%} of its torque, which may be off by {off:.0%}"
+            return {"kind": kind, "loss": loss, "uncertainty": off, "candidates": candidates, "evidence": (*evidence, more)}
 
         if not self._torques:
             return verdict(*(("locked", ("locked", "standstill", *unless_seen)) if still else ("unknown", ())))

@@ -10,14 +10,16 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.diagnosis.answer import Diagnosis
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, Decision, cycles
+from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, UNSURE, Decision, cycles
 from holdfast.diagnosis.kinds import Verdict
-from holdfast.diagnosis.observer import BAND, GAIN, friction_torque, low_passed, momentum_kernel
+from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, friction_torque, level, low_passed, momentum_kernel
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW, SMOOTHED, Scaled, Signals, bridged, signals_of, tool_residual
 from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
+
+STALE = 0.050  # s without a number; over shorter gaps lines are drawn
 
 
 @checked
@@ -54,6 +56,7 @@ class Monitor:
         bounds.require(arm, bounds.rate)
         self.arm, self.bounds, self.sensors = arm, bounds, sensors or Sensors()
         self._dt = 1 / bounds.rate
+        self._late, self._longest = round(self.sensors.latency * bounds.rate), cycles(STALE, 1 / bounds.rate)
         self._asked = (cycles(ISOLATE, self._dt), cycles(ISOLATE + CLASSIFY, self._dt))
         self._momentum = momentum_kernel(bounds.body(arm)).single() if np.isfinite(bounds.torque).all() else None
         self.reset()
@@ -74,13 +77,17 @@ class Monitor:
         verdict = Verdict(False) if scaled.alarm is None else self._followed(log, signals, scaled, *scaled.alarm)
         return Diagnosis(arm=self.arm, log=log, bounds=bounds, signals=signals, scaled=scaled, verdict=verdict)
 
-    def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...]) -> Decision:
+    def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], before: Array) -> Decision:
         watched = {"torques": "torque" in levels, "tool": "tool" in levels}
-        return Decision(self.arm, self.bounds, self.sensors, time=time, **watched, tool_alone=alarmed == ("tool",))
+        return Decision(
+            self.arm, self.bounds, self.sensors, time=time, level=before, **watched, tool_alone=alarmed == ("tool",)
+        )
 
     def _followed(self, log: Log, signals: Signals, scaled: Scaled, row: int, alarmed: tuple[str, ...]) -> Verdict:
         """What a record comes to after its alarm."""
-        decision = self._decision(float(log.t[row]), signals.levels, alarmed)
+        sure = (scaled.torque[: row + 1] < UNSURE).all(axis=1)
+        before = level(np.concatenate([np.zeros((1, log.n)), signals.torque[: row + 1][sure]]), signals.dt)[-1]
+        decision = self._decision(float(log.t[row]), signals.levels, alarmed, before)
         rows = slice(row, row + decision.ends)
         q, reference = bridged(log.q), bridged(log.q_ref)[rows]
         low = np.zeros(q.shape)
@@ -105,9 +112,11 @@ class Monitor:
 
     def reset(self) -> None:
         """Forget everything: the next step is the first."""
-        self._cycle, self._at, self._fast, self._seen, self._seen_at = 0, 0, 0, 0, 0
-        self._v = self._r = self._p = self._gravity = self._tau = self._low = np.zeros(self.arm.n)
+        self._cycle, self._fast, self._seen, self._seen_at = 0, 0, 0, 0
+        self._v = self._r = self._p = self._gravity = self._tau = self._low = self._level = np.zeros(self.arm.n)
         self._q: Array | None = None
+        self._felt = np.zeros(self.arm.n)  #  torques of cycles that were passed over
+        self._missed, self._known, self._anew, self._past = 0, 0, 0, np.full((self._late + 1, self.arm.n), np.nan)
         self._reference: Array | None = None
         self._last = np.zeros((SMOOTHED, 6))
         self.rearm()
@@ -124,37 +133,62 @@ class Monitor:
         """One control cycle: what is known now.
 
         Args:
-            q: (n,) what the joint sensors tell, rad and m; with NaN the cycle is passed over.
+            q: (n,) what the joint sensors tell, rad and m; with NaN the cycle is passed over, and is nobody's fault.
             reference: (n,) what the servos follow, rad and m.
             torque: (n,) commanded, N m and N; None: not watched.
-            pose: (4, 4) measured pose of the tool, taken now; None, or NaN: no sample in this cycle.
+            pose: (4, 4) measured pose of the tool, taken ``sensors.latency`` ago; None, or NaN: no sample in this cycle.
         """
         place, wanted = np.asarray(q, dtype=np.float64), np.asarray(reference, dtype=np.float64)
         tau = None if torque is None or self._momentum is None else np.asarray(torque, dtype=np.float64)
         self._cycle += 1
+        self._past[self._cycle % len(self._past)] = place
         if not np.isfinite(place + wanted).all() or (tau is not None and not np.isfinite(tau).all()):
+            self._missed += 1
+            if tau is not None and np.isfinite(tau).all():
+                self._felt, self._known = self._felt + tau, self._known + 1
             return self.verdict
-        elapsed, self._at = (self._cycle - self._at) * self._dt, self._cycle  # longer after cycles that were passed over
-        self._observe(place, tau, elapsed)
+        elapsed = (self._missed + 1) * self._dt  # longer after cycles that were passed over
+        self._bridge(place, tau)
+        self._observe(place, tau)
         z = np.abs(self._r) / self.bounds.torque
         y = self._tracking(wanted, place, elapsed, alone=tau is None)
         self._over_z = np.maximum(0.0, self._over_z + (z - 1) * self._dt)
         self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
-        seen = None if pose is None else self._look(place, np.asarray(pose, dtype=np.float64))
+        then = self._past[(self._cycle + 1) % len(self._past)]
+        seen = None if pose is None else self._look(then, np.asarray(pose, dtype=np.float64))
         if self._alarm is None:
+            if (z < UNSURE).all():
+                self._level = self._level + min(1.0, LEVEL * self._dt) * (self._r - self._level)
             over = {"torque": self._over_z.max(), "tracking": self._over_y.max(), "tool": self._over_w}
             alarmed = tuple(name for name in over if over[name] > LIMITS[name])
             if alarmed:
                 time = (self._cycle - 1) * self._dt
                 levels = ("tracking", *["torque"] * (tau is not None), *["tool"] * (self._seen > 0))
-                self._alarm, self.verdict = self._decision(time, levels, alarmed), Verdict(True, time)
+                self._alarm, self.verdict = self._decision(time, levels, alarmed, self._level), Verdict(True, time)
         if self._alarm is not None and self._alarm.count < self._alarm.ends:
             self._alarm.add(place, wanted, (self._v, self._r, self._low, self._gravity), z, y)
             if seen is not None:
-                self._alarm.see(*seen, self.arm.jacobian(place))
+                self._alarm.see(*seen, self.arm.jacobian(then))
             if seen is not None or self._alarm.count in self._asked:
                 self.verdict = self._alarm.verdict()
         return self.verdict
+
+    @property
+    def stale(self) -> tuple[str, ...]:
+        """What has told no number for 50 ms: ``joints`` (sensors, references or torques), ``tool`` once it has been seen."""
+        tool = self._seen > 0 and self._cycle - self._seen_at > self._longest
+        return ("joints",) * (self._missed > self._longest) + ("tool",) * tool
+
+    def _bridge(self, q: Array, tau: Array | None) -> None:
+        """Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled."""
+        if self._q is not None and self._missed > self._longest:
+            self._q, self._r, self._anew = None, np.zeros(len(q)), self._longest + 1
+        elif self._q is not None and self._missed:
+            start, step = self._q, (q - self._q) / (self._missed + 1)
+            torque = self._felt / self._known if self._known == self._missed else self._tau
+            for k in range(1, self._missed + 1):
+                self._observe(start + k * step, None if tau is None else torque)
+        self._missed, self._known, self._felt = 0, 0, np.zeros(len(q))
 
     def _tracking(self, reference: Array, q: Array, elapsed: float, *, alone: bool) -> Array:
         """In units of its bounds; with joint sensors alone NaN unless all references were slow for a while."""
@@ -167,7 +201,7 @@ class Monitor:
 
     def _look(self, q: Array, pose: Array) -> tuple[float, Array] | None:
         """A sample of the tool's pose: its smoothed residual in units of the bounds, and its own."""
-        if not np.isfinite(pose).all():
+        if not (np.isfinite(pose).all() and np.isfinite(q).all()):
             return None
         residual = tool_residual(self.arm, q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
         self._last[self._seen % SMOOTHED] = residual
@@ -179,11 +213,12 @@ class Monitor:
         self._seen, self._seen_at = self._seen + 1, self._cycle
         return w, residual
 
-    def _observe(self, q: Array, tau: Array | None, elapsed: float) -> None:
+    def _observe(self, q: Array, tau: Array | None) -> None:
         n, dt = self.arm.n, self._dt
-        first = self._q is None
-        if self._q is not None:
-            self._v = self._v + min(1.0, BAND * dt) * ((q - self._q) / elapsed - self._v)
+        anew = self._q is None or self._anew > 0
+        if self._q is not None:  # the arm moves when it is seen again: its first rate is not filtered
+            self._v = self._v + (1.0 if self._anew > self._longest else min(1.0, BAND * dt)) * ((q - self._q) / dt - self._v)
+            self._anew = max(0, self._anew - 1)
         elif tau is not None:
             self._tau = self._low = tau
         self._q = q
@@ -192,8 +227,7 @@ class Monitor:
         self._tau = self._tau + min(1.0, BAND * dt) * (tau - self._tau)
         self._low = self._low + min(1.0, GAIN * dt) * (self._tau - self._low)
         p, energy, self._gravity = self._momentum(np.concatenate((q, self._v))).reshape(3, n)
-        if not first:
+        if not anew:
             known = self._tau + energy - self._gravity - friction_torque(self._v, self.bounds.coulomb, self.bounds.viscous)
-            gain = min(GAIN, 1 / elapsed)
-            self._r = max(0.0, 1 - GAIN * elapsed) * self._r + gain * (p - self._p - elapsed * known)
+            self._r = (1 - GAIN * dt) * self._r + GAIN * (p - self._p - dt * known)
         self._p = p

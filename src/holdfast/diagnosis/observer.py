@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 
 GAIN = 40.0  # 1/s, K_O
 BAND = 2 * np.pi * 20  # rad/s, of the filter on rates and torques
+LEVEL = 1 / 0.15  # rad/s, of the filter that the level of a residual goes through
 SLIP = 0.02  # rad/s or m/s: dry friction has turned its sign within about so much
 
 
@@ -55,6 +56,11 @@ def low_passed(signal: Array, dt: float, band: float, initial: Array) -> Array:
     a = min(1.0, band * dt)
     out, _ = lfilter([a], [1, a - 1], signal, axis=0, zi=(1 - a) * initial[None])
     return np.asarray(out)
+
+
+def level(r: Array, dt: float) -> Array:
+    """(T, n) levels of residuals (T, n), from 0 on: what masses that are off make of them, slow beside a fault or a push."""
+    return low_passed(r, dt, LEVEL, np.zeros(r.shape[1]))
 
 
 def filtered_rates(q: Array, dt: float) -> Array:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors, rotations_of_quaternions
-from holdfast.diagnosis.observer import excess, filtered_rates, momentum_kernel, residuals
+from holdfast.diagnosis.observer import excess, filtered_rates, level, momentum_kernel, residuals
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 
@@ -64,7 +64,13 @@ class Signals:
     levels: tuple[str, ...]
 
     def largest(self, name: str) -> Array | float:
-        """Largest size of ``torque`` or ``tracking``, (n,), or of the tool's ``position`` or ``angle``; infinite if absent."""
+        """Largest size of ``torque``, its ``change`` or ``tracking``, (n,), or of the tool's ``position`` or ``angle``.
+
+        Infinite if absent.
+        """
+        if name == "change":
+            change = self.torque - level(self.torque, self.dt)
+            return np.asarray(np.abs(change).max(axis=0) if "torque" in self.levels else np.full(change.shape[1], np.inf))
         if name in ("torque", "tracking"):
             values = np.nan_to_num(np.abs(getattr(self, name))).max(axis=0)
             return np.asarray(values if name in self.levels else np.full(len(values), np.inf))

@@ -1,4 +1,4 @@
-"""What a robot or a simulation recorded of its joints over time; read from npz, CSV and Parquet files."""
+"""What a robot or a simulation recorded of its joints over time, in npz, CSV and Parquet files."""
 
 from __future__ import annotations
 
@@ -115,20 +115,27 @@ class Log:
         return replace(self, x=moved[:, :3], quat=moved[:, 3:])
 
     def save(self, file: str | Path, **more: Array) -> Path:
-        """Write ``.npz`` (single precision but for the time) or, by its name, CSV.
+        """Write ``.npz`` (single precision but for the time) or, by its name, CSV or Parquet.
 
         Args:
             file: Path.
             more: Other arrays of an ``.npz`` file, which :meth:`load` passes over.
 
         Raises:
+            InputError: Parquet without pyarrow.
             StoreError: It cannot be written.
         """
         path = Path(file)
         given = {name: value for name in _WIDTHS if (value := getattr(self, name)) is not None}
-        if path.suffix.lower() == ".csv":
+        if path.suffix.lower() in (".csv", ".parquet"):
             header = ["t", *(f"{name}_{k + 1}" for name, a in given.items() if a.ndim == 2 for k in range(a.shape[1]))]
-            return write_table(path, "log", header, np.column_stack(list(given.values())))
+            rows = np.column_stack(list(given.values()))
+            if path.suffix.lower() == ".csv":
+                return write_table(path, "log", header, rows)
+            pyarrow, parquet = _arrow()
+            with guarded(path, "log", "choose another path"):
+                parquet.write_table(pyarrow.table(dict(zip(header, rows.T, strict=True))), path)
+            return path
         with guarded(path, "log", "choose another path"), path.open("wb") as stream:
             arrays = {**given, **more}
             np.savez_compressed(stream, **{x: a if x == "t" else a.astype(np.float32) for x, a in arrays.items()})
@@ -157,11 +164,17 @@ def _from_csv(path: Path) -> Mapping[str, Any]:
     return _arranged(columns)
 
 
-def _from_parquet(path: Path) -> Mapping[str, Any]:
+def _arrow() -> tuple[Any, Any]:
     try:
+        import pyarrow
         from pyarrow import parquet
     except ImportError as error:
         raise InputError("Parquet needs pyarrow; install holdfast[parquet], or give an .npz or .csv file") from error
+    return pyarrow, parquet
+
+
+def _from_parquet(path: Path) -> Mapping[str, Any]:
+    _, parquet = _arrow()
     with reading.guarded(advice="give an .npz, .csv or .parquet file"):
         content = reading.raw(path)
     try:

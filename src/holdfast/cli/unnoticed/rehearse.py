@@ -35,9 +35,8 @@ def command(
     """
     model = read_arm(arm, base, tip, hold)
     model_of = None if faults is None else hf.faults.load(faults)
-    files, folder = [], made(out)
-    for k in range(records):
-        events = () if model_of is None else model_of.draw(model, episode=k, horizon=duration)
-        record = hf.diagnosis.rehearse(model, duration, faults=events, seed=seed + k, body=body)
-        files.append(record.save(folder / f"{k:06d}.npz"))
+    events = model_of and [model_of.draw(model, episode=k, horizon=duration) for k in range(records)]
+    seeds, folder = range(seed, seed + records), made(out)
+    logs = hf.diagnosis.rehearse_many(model, duration, seeds=seeds, faults=events, bodies=[body] * records)
+    files = [log.save(folder / f"{k:06d}.npz") for k, log in enumerate(logs)]
     print_written(console(), files)

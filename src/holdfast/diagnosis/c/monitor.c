@@ -1,79 +1,71 @@
 enum { N = COUNT, SMOOTHED = 5 };
 static const double DT = CONST_DT;
 
-static double larger(double a, double b) { return a > b ? a : b; }
-static double smaller(double a, double b) { return a < b ? a : b; }
-
-static int finite_all(const double *x, int count) {
-    int k;
-    for (k = 0; k < count; ++k)
-        if (!(x[k] - x[k] == 0)) return 0;
-    return 1;
-}
-
 static void answer(NAME_state *s, int joint, NAME_kind kind, double loss) {
     s->verdict.joint = joint;
     s->verdict.kind = kind;
     s->verdict.loss = loss;
 }
 
-/* Rotation vector of a rotation, row by row, by the longest row of 4 q q' of its quaternion q. */
-static void rotation_vector(const double r[9], double out[3]) {
-    double o[4][4], q[4], size = 0, half, factor, trace = r[0] + r[4] + r[8];
-    int i, j, best = 0;
-    for (i = 0; i < 3; ++i)
-        for (j = 0; j < 3; ++j) o[i][j] = i == j ? 1 + 2 * r[4 * i] - trace : r[3 * i + j] + r[3 * j + i];
-    o[3][3] = 1 + trace;
-    o[3][0] = o[0][3] = r[7] - r[5];
-    o[3][1] = o[1][3] = r[2] - r[6];
-    o[3][2] = o[2][3] = r[3] - r[1];
-    for (i = 1; i < 4; ++i)
-        if (o[i][i] > o[best][best]) best = i;
-    for (i = 0; i < 4; ++i) size += o[best][i] * o[best][i];
-    for (i = 0; i < 4; ++i) q[i] = o[best][i] / sqrt(size) * (o[best][3] < 0 ? -1 : 1);
-    half = atan2(sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), q[3]);
-    factor = half > 1e-12 ? 2 * half / sin(half) : 2;
-    for (i = 0; i < 3; ++i) out[i] = q[i] * factor;
-}
-
 /* Rates, and the residual of the momentum. */
-static void observe(NAME_state *s, const double *q, const double *torque, double h) {
+static void observe(NAME_state *s, const double *q, const double *torque) {
 #if WITH_TORQUES
-    double p[N], energy[N], known, keep, gain;
+    double p[N], energy[N], known;
+    int anew = !s->begun || s->anew > 0;
 #endif
     int k, first = !s->begun;
     for (k = 0; k < N; ++k) {
         if (first) {
             if (torque) s->torque[k] = s->low[k] = torque[k];
         } else {
-            s->v[k] += CONST_BAND * ((q[k] - s->q[k]) / h - s->v[k]);
+            s->v[k] += (s->anew > CONST_LONGEST ? 1 : CONST_BAND) * ((q[k] - s->q[k]) / DT - s->v[k]);
         }
         s->q[k] = q[k];
     }
+    if (!first && s->anew > 0) s->anew -= 1;
     s->begun = 1;
-    s->at = s->cycle;
 #if WITH_TORQUES
     if (!torque) return;
     momentum(q, s->v, p, energy, s->gravity);
-    keep = larger(0, 1 - CONST_GAIN * h);
-    gain = smaller(CONST_GAIN, 1 / h);
     for (k = 0; k < N; ++k) {
         s->torque[k] += CONST_BAND * (torque[k] - s->torque[k]);
         s->low[k] += CONST_LOW * (s->torque[k] - s->low[k]);
-        if (!first) {
+        if (!anew) {
             known = s->torque[k] + energy[k] - s->gravity[k] - (coulomb[k] * tanh(s->v[k] / CONST_SLIP) + viscous[k] * s->v[k]);
-            s->r[k] = keep * s->r[k] + gain * (p[k] - s->p[k] - h * known);
+            s->r[k] = CONST_KEEP * s->r[k] + CONST_GAIN * (p[k] - s->p[k] - DT * known);
         }
         s->p[k] = p[k];
     }
 #endif
 }
 
+/* Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled. */
+static void bridge(NAME_state *s, const double *q, const double *torque) {
+    double start[N], between[N], felt[N];
+    long k;
+    int i;
+    if (s->begun && s->missed > CONST_LONGEST) {
+        s->begun = 0;
+        s->anew = CONST_LONGEST + 1;
+        for (i = 0; i < N; ++i) s->r[i] = 0;
+    }
+    for (i = 0; i < N; ++i) {
+        start[i] = s->q[i];
+        felt[i] = s->known == s->missed && s->known > 0 ? s->felt[i] / (double)s->known : s->torque[i];
+        s->felt[i] = 0;
+    }
+    for (k = 1; k <= s->missed && s->begun; ++k) {
+        for (i = 0; i < N; ++i) between[i] = start[i] + (double)k * ((q[i] - start[i]) / (double)(s->missed + 1));
+        observe(s, between, torque ? felt : 0);
+    }
+    s->missed = s->known = 0;
+}
+
 /* How far the tool's measured pose is from where the joints have it, and the Jacobian column by column. */
 static void off_tool(const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
-    double there[12], turn[9];
+    double there[12], ends[3 * N], turn[9];
     int i, j, k;
-    tool(q, there, jacobian);
+    tool(q, there, jacobian, ends);
     for (i = 0; i < 3; ++i) {
         residual[i] = pose[4 * i + 3] - there[9 + i];
         for (j = 0; j < 3; ++j)
@@ -100,16 +92,15 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
     return w;
 }
 
-/* Does a force at the tool explain the mean residual torques better than any joint alone? */
-static int is_a_push(const NAME_state *s, const double *q) {
-    double there[12], jacobian[6 * N], column[3][N], mean[N], whole = 0, most = 0, left = 0, size, before, along;
+/* Of `rows`, in squares of deviations, what a force at the far end of link `last` cannot explain; end: from the tool there. */
+static double left_by_force(const double *rows, const double *jacobian, const double *end, int last) {
+    double column[3][N], rest[N], size, before, along, left = 0;
     int i, j, k;
-    tool(q, there, jacobian);
     for (k = 0; k < N; ++k) {
-        mean[k] = s->residual[k] / CONST_SPLIT / (CONST_SCALE * torque_bound[k]);
-        whole += mean[k] * mean[k];
-        most = larger(most, mean[k] * mean[k]);
-        for (i = 0; i < 3; ++i) column[i][k] = jacobian[6 * k + i] / (CONST_SCALE * torque_bound[k]);
+        const double *v = jacobian + 6 * k, *w = v + 3, scale = k > last ? 0 : 1 / (CONST_SCALE * change_bound[k]);
+        rest[k] = rows[k];
+        for (i = 0; i < 3; ++i)
+            column[i][k] = scale * (v[i] + w[(i + 1) % 3] * end[(i + 2) % 3] - w[(i + 2) % 3] * end[(i + 1) % 3]);
     }
     for (i = 0; i < 3; ++i) {
         for (before = 0, k = 0; k < N; ++k) before += column[i][k] * column[i][k];
@@ -118,13 +109,27 @@ static int is_a_push(const NAME_state *s, const double *q) {
             for (k = 0; k < N; ++k) column[i][k] -= along * column[j][k];
         }
         for (size = 0, k = 0; k < N; ++k) size += column[i][k] * column[i][k];
-        size = size > 1e-20 * before ? sqrt(size) : 0;
+        size = size > 1e-18 * before ? sqrt(size) : 0;
         for (k = 0; k < N; ++k) column[i][k] = size > 0 ? column[i][k] / size : 0;
-        for (along = 0, k = 0; k < N; ++k) along += column[i][k] * mean[k];
-        for (k = 0; k < N; ++k) mean[k] -= along * column[i][k];
+        for (along = 0, k = 0; k < N; ++k) along += column[i][k] * rest[k];
+        for (k = 0; k < N; ++k) rest[k] -= along * column[i][k];
     }
-    for (k = 0; k < N; ++k) left += mean[k] * mean[k];
-    return left + CONST_PUSHED < whole - most;
+    for (k = 0; k < N; ++k) left += rest[k] * rest[k];
+    return left;
+}
+
+/* Does a force on a link explain the change of the residual torques better than any joint alone? */
+static int is_a_push(const NAME_state *s, const double *q) {
+    double there[12], jacobian[6 * N], ends[3 * N], rows[N], whole = 0, most = 0, least = HUGE_VAL;
+    int k;
+    tool(q, there, jacobian, ends);
+    for (k = 0; k < N; ++k) {
+        rows[k] = (s->residual[k] / CONST_SPLIT - s->level[k]) / (CONST_SCALE * change_bound[k]);
+        whole += rows[k] * rows[k];
+        most = larger(most, rows[k] * rows[k]);
+    }
+    for (k = 0; k < N; ++k) least = smaller(least, left_by_force(rows, jacobian, ends + 3 * k, k));
+    return least + CONST_PUSHED < whole - most;
 }
 
 /* A cycle after the alarm: sums, which are all that the decision needs. */
@@ -258,18 +263,31 @@ void NAME_init(NAME_state *s) {
     NAME_rearm(s);
 }
 
-void NAME_skip(NAME_state *s, long cycles) { s->cycle += cycles; }
+void NAME_skip(NAME_state *s, long cycles) {
+    int k;
+    for (; cycles > 0; --cycles, s->missed += 1) /* a pose of these is not compared with anything */
+        for (s->cycle += 1, k = 0; k < N; ++k) s->past[s->cycle % (GUARD_LATE + 1)][k] = HUGE_VAL;
+}
 
 void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUNT], const double *torque, const double *pose,
                NAME_verdict *verdict) {
-    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, most_z = 0, most_y = 0, h;
+    double z[N], y[N], residual[6], jacobian[6 * N], w = 0, over_z = 0, over_y = 0, most = 0, h;
+    const double *then;
     int k, gated, look_now = 0;
     if (!WITH_TORQUES) torque = 0;
     s->cycle += 1;
+    for (k = 0; k < N; ++k) s->past[s->cycle % (GUARD_LATE + 1)][k] = q[k];
+    then = s->past[(s->cycle + 1) % (GUARD_LATE + 1)];
     *verdict = s->verdict;
-    if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) return;
-    h = (double)(s->cycle - s->at) * DT; /* longer after cycles without a sample */
-    observe(s, q, torque, h);
+    if (!finite_all(q, N) || !finite_all(reference, N) || (torque && !finite_all(torque, N))) {
+        s->missed += 1;
+        s->known += torque && finite_all(torque, N);
+        for (k = 0; k < N && torque && finite_all(torque, N); ++k) s->felt[k] += torque[k];
+        return;
+    }
+    h = (double)(s->missed + 1) * DT; /* longer after cycles without a sample */
+    bridge(s, q, torque);
+    observe(s, q, torque);
     for (k = 0; k < N && s->referred; ++k)
         if (fabs(reference[k] - s->reference[k]) >= CONST_SLOW * h) s->fast = s->cycle;
     gated = !torque && s->cycle - s->fast < CONST_CALM;
@@ -279,21 +297,23 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         y[k] = fabs(reference[k] - q[k]) / tracking_bound[k];
         s->over_z[k] = larger(0, s->over_z[k] + (z[k] - 1) * DT);
         if (!gated) s->over_y[k] = larger(0, s->over_y[k] + (y[k] - 1) * DT);
-        most_z = larger(most_z, s->over_z[k]);
-        most_y = larger(most_y, s->over_y[k]);
+        over_z = larger(over_z, s->over_z[k]);
+        over_y = larger(over_y, s->over_y[k]);
+        most = larger(most, z[k]);
         if (gated) y[k] = 0;
     }
     s->referred = 1;
-    if (pose && finite_all(pose, 16)) {
-        w = look(s, q, pose, residual, jacobian);
+    if (pose && s->cycle > GUARD_LATE && finite_all(then, N) && finite_all(pose, 16)) {
+        w = look(s, then, pose, residual, jacobian);
         look_now = 1;
     }
-    if (!s->alarmed && (most_z > CONST_LIMIT_Z || most_y > CONST_LIMIT_Y || s->over_w > CONST_LIMIT_W)) {
+    for (k = 0; k < N && !s->alarmed && most < CONST_UNSURE; ++k) s->level[k] += CONST_LEVEL * (s->r[k] - s->level[k]);
+    if (!s->alarmed && (over_z > CONST_LIMIT_Z || over_y > CONST_LIMIT_Y || s->over_w > CONST_LIMIT_W)) {
         s->alarmed = s->verdict.alarm = 1;
         s->verdict.time = (double)(s->cycle - 1) * DT;
         s->torques = torque != 0;
         s->tool = s->seen > 0;
-        s->suspect = !(most_z > CONST_LIMIT_Z || most_y > CONST_LIMIT_Y);
+        s->suspect = !(over_z > CONST_LIMIT_Z || over_y > CONST_LIMIT_Y);
     }
     if (s->alarmed && s->count < CONST_ENDS) {
         follow(s, q, reference, z, y);
@@ -316,6 +336,10 @@ double NAME_joint_by_tool(const double q[COUNT], const double pose[16], int join
         at[joint] += along / larger(size, 1e-12);
     }
     return at[joint];
+}
+
+int NAME_stale(const NAME_state *s) {
+    return (s->missed > CONST_LONGEST) + 2 * (s->seen > 0 && s->cycle - s->seen_at > CONST_LONGEST);
 }
 
 const char *NAME_kind_name(NAME_kind kind) {

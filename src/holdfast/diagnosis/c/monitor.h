@@ -3,6 +3,8 @@
 
 #define GUARD_JOINTS COUNT
 #define GUARD_RATE RATE_HZ
+/* Cycles by which a pose comes after it was taken. */
+#define GUARD_LATE LATE_CYCLES
 /* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
 #define GUARD_HOLDFAST "VERSION"
 #define GUARD_ARM "FINGERPRINT"
@@ -29,10 +31,11 @@ typedef struct {
 
 /* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
 typedef struct {
-    double v[COUNT], r[COUNT];
+    double v[COUNT], r[COUNT], level[COUNT];
     double over_z[COUNT], over_y[COUNT], over_w;
-    long cycle, at, fast, seen, seen_at, count, poses, some;
-    int begun, referred, alarmed, torques, tool, suspect, push, joint, told;
+    long cycle, fast, seen, seen_at, count, poses, some, missed, known;
+    int begun, anew, referred, alarmed, torques, tool, suspect, push, joint, told;
+    double past[GUARD_LATE + 1][COUNT], felt[COUNT];
     double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
     double size[COUNT], residual[COUNT], left[COUNT], gap;
     double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss;
@@ -47,7 +50,7 @@ void NAME_init(NAME_state *state);
 /* Forget the alarm and what led to it, while the arm goes on. */
 void NAME_rearm(NAME_state *state);
 
-/* So many cycles went by without a sample: none is missed, and time runs on. */
+/* So many cycles went by without a sample, as if each had been passed over. */
 void NAME_skip(NAME_state *state, long cycles);
 
 /* Where a joint is by the tool's measured pose, (4, 4) row by row, if all others are where their sensors say; rad or m.
@@ -56,9 +59,12 @@ double NAME_joint_by_tool(const double q[COUNT], const double pose[16], int join
 
 /* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
    q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
-   torque: commanded torques, N m and N, or NULL. pose: the tool's measured pose, taken now, (4, 4) row by row, or NULL. */
+   torque: commanded torques, N m and N, or NULL. pose: the tool's, measured GUARD_LATE cycles ago, (4, 4) by rows, or NULL. */
 void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
                const double *pose, NAME_verdict *verdict);
+
+/* What has told no number for 50 ms: 1 joints (or torques), 2 the tool once it has been seen, 3 both, 0 nothing. */
+int NAME_stale(const NAME_state *state);
 
 /* A word for each kind. */
 const char *NAME_kind_name(NAME_kind kind);

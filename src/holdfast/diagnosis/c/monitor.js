@@ -1,4 +1,4 @@
-const N = COUNT, SMOOTHED = 5, DT = CONST_DT;
+const N = COUNT, SMOOTHED = 5, DT = CONST_DT, LATE = LATE_CYCLES;
 const KINDS = [KIND_WORDS];
 const [UNKNOWN, LOCKED, STANDSTILL, LIMP, WEAK, FRICTION, SLUGGISH, SENSOR, CONTACT] = KINDS.keys();
 const finiteAll = (values) => values.every(Number.isFinite);
@@ -25,11 +25,13 @@ export class Monitor {
     constructor() {
         const zeros = () => new Float64Array(N);
         Object.assign(this, {v: zeros(), r: zeros(), q: zeros(), reference: zeros(), p: zeros(), gravity: zeros()});
-        Object.assign(this, {torque: zeros(), low: zeros(), last: [], cycle: 0, at: 0, fast: 0, seen: 0, seenAt: 0});
+        Object.assign(this, {torque: zeros(), low: zeros(), level: zeros(), felt: zeros(), last: []});
+        for (const name of ["cycle", "fast", "seen", "seenAt", "missed", "known", "anew"]) this[name] = 0;
         this.begun = this.referred = false;
+        this.past = Array.from({length: LATE + 1}, () => zeros().fill(NaN));
         this.given = new Float64Array(2 * N);
         this.terms = new Float64Array(3 * N);
-        this.there = new Float64Array(12 + 6 * N);
+        this.there = new Float64Array(12 + 9 * N);
         this.rearm();
     }
 
@@ -47,29 +49,47 @@ export class Monitor {
         return KINDS[this.verdict.kind];
     }
 
+    /* What has told no number for 50 ms: "joints" (or torques), "tool" once it has been seen. */
+    stale() {
+        const tool = this.seen > 0 && this.cycle - this.seenAt > CONST_LONGEST;
+        return [...(this.missed > CONST_LONGEST ? ["joints"] : []), ...(tool ? ["tool"] : [])];
+    }
+
     step(q, reference, torque, pose) {
         const z = new Float64Array(N), y = new Float64Array(N);
         if (!WITH_TORQUES) torque = null;
         this.cycle += 1;
-        if (!finiteAll(q) || !finiteAll(reference) || (torque && !finiteAll(torque))) return this.verdict;
-        const h = (this.cycle - this.at) * DT;
-        this.#observe(q, torque, h);
+        this.past[this.cycle % (LATE + 1)].set(q);
+        const then = this.past[(this.cycle + 1) % (LATE + 1)];
+        if (!finiteAll(q) || !finiteAll(reference) || (torque && !finiteAll(torque))) {
+            this.missed += 1;
+            if (torque && finiteAll(torque)) {
+                this.known += 1;
+                torque.forEach((x, k) => (this.felt[k] += x));
+            }
+            return this.verdict;
+        }
+        const h = (this.missed + 1) * DT; /* longer after cycles without a sample */
+        this.#bridge(q, torque);
+        this.#observe(q, torque);
         for (let k = 0; k < N && this.referred; ++k) if (Math.abs(reference[k] - this.reference[k]) >= CONST_SLOW * h) this.fast = this.cycle;
         const gated = !torque && this.cycle - this.fast < CONST_CALM;
-        let mostZ = 0, mostY = 0, look = null;
+        let overZ = 0, overY = 0, most = 0, look = null;
         for (let k = 0; k < N; ++k) {
             this.reference[k] = reference[k];
             z[k] = Math.abs(this.r[k]) / torqueBound[k];
             y[k] = Math.abs(reference[k] - q[k]) / trackingBound[k];
             this.overZ[k] = Math.max(0, this.overZ[k] + (z[k] - 1) * DT);
             if (!gated) this.overY[k] = Math.max(0, this.overY[k] + (y[k] - 1) * DT);
-            mostZ = Math.max(mostZ, this.overZ[k]);
-            mostY = Math.max(mostY, this.overY[k]);
+            overZ = Math.max(overZ, this.overZ[k]);
+            overY = Math.max(overY, this.overY[k]);
+            most = Math.max(most, z[k]);
             if (gated) y[k] = 0;
         }
         this.referred = true;
-        if (pose && finiteAll(pose)) look = this.#look(q, pose);
-        const joints = mostZ > CONST_LIMIT_Z || mostY > CONST_LIMIT_Y;
+        if (pose && finiteAll(then) && finiteAll(pose)) look = this.#look(then, pose);
+        for (let k = 0; k < N && !this.alarmed && most < CONST_UNSURE; ++k) this.level[k] += CONST_LEVEL * (this.r[k] - this.level[k]);
+        const joints = overZ > CONST_LIMIT_Z || overY > CONST_LIMIT_Y;
         if (!this.alarmed && (joints || this.overW > CONST_LIMIT_W)) {
             this.alarmed = this.verdict.alarm = true;
             this.verdict.time = (this.cycle - 1) * DT;
@@ -85,29 +105,46 @@ export class Monitor {
         return this.verdict;
     }
 
-    #observe(q, torque, h) {
-        const first = !this.begun;
+    /* Rates, and the residual of the momentum. */
+    #observe(q, torque) {
+        const first = !this.begun, anew = first || this.anew > 0, gain = this.anew > CONST_LONGEST ? 1 : CONST_BAND;
         for (let k = 0; k < N; ++k) {
-            if (!first) this.v[k] += CONST_BAND * ((q[k] - this.q[k]) / h - this.v[k]);
+            if (!first) this.v[k] += gain * ((q[k] - this.q[k]) / DT - this.v[k]);
             else if (torque) this.torque[k] = this.low[k] = torque[k];
             this.q[k] = q[k];
         }
+        if (!first && this.anew > 0) this.anew -= 1;
         this.begun = true;
-        this.at = this.cycle;
         if (!torque) return;
         this.given.set(q);
         this.given.set(this.v, N);
         momentum(this.given, this.terms);
-        const keep = Math.max(0, 1 - CONST_GAIN * h), gain = Math.min(CONST_GAIN, 1 / h);
         for (let k = 0; k < N; ++k) {
             const p = this.terms[k], friction = coulomb[k] * Math.tanh(this.v[k] / CONST_SLIP) + viscous[k] * this.v[k];
             this.gravity[k] = this.terms[2 * N + k];
             this.torque[k] += CONST_BAND * (torque[k] - this.torque[k]);
             this.low[k] += CONST_LOW * (this.torque[k] - this.low[k]);
             const known = this.torque[k] + this.terms[N + k] - this.gravity[k] - friction;
-            if (!first) this.r[k] = keep * this.r[k] + gain * (p - this.p[k] - h * known);
+            if (!anew) this.r[k] = CONST_KEEP * this.r[k] + CONST_GAIN * (p - this.p[k] - DT * known);
             this.p[k] = p;
         }
+    }
+
+    /* Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled. */
+    #bridge(q, torque) {
+        if (this.begun && this.missed > CONST_LONGEST) {
+            this.begun = false;
+            this.anew = CONST_LONGEST + 1;
+            this.r.fill(0);
+        }
+        const all = this.known === this.missed && this.known > 0;
+        const start = this.q.slice(), felt = this.torque.map((x, k) => (all ? this.felt[k] / this.known : x));
+        for (let k = 1; k <= this.missed && this.begun; ++k) {
+            const between = start.map((x, i) => x + k * ((q[i] - x) / (this.missed + 1)));
+            this.#observe(between, torque ? felt : null);
+        }
+        this.felt.fill(0);
+        this.missed = this.known = 0;
     }
 
     /* A sample of the tool's pose: its own residual, and its smoothed one in units of the bounds. */
@@ -131,29 +168,38 @@ export class Monitor {
         return {w, residual};
     }
 
-    /* Does a force at the tool explain the mean residual torques better than any joint alone? */
-    #isAPush(q) {
-        const mean = new Float64Array(N), column = [0, 1, 2].map(() => new Float64Array(N));
+    /* Of `rows`, in squares of deviations, what a force at the far end of link `last` cannot explain. */
+    #leftByForce(rows, there, last) {
         const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
-        tool(q, this.there);
-        for (let k = 0; k < N; ++k) {
-            const scale = CONST_SCALE * torqueBound[k];
-            mean[k] = this.residual[k] / CONST_SPLIT / scale;
-            for (let i = 0; i < 3; ++i) column[i][k] = this.there[12 + 6 * k + i] / scale;
+        const rest = rows.slice(), column = [0, 1, 2].map(() => new Float64Array(N));
+        const end = there.subarray(12 + 6 * N + 3 * last); /* from the tool */
+        for (let k = 0; k <= last; ++k) {
+            const v = there.subarray(12 + 6 * k), w = v.subarray(3), scale = 1 / (CONST_SCALE * changeBound[k]);
+            for (let i = 0; i < 3; ++i)
+                column[i][k] = scale * (v[i] + w[(i + 1) % 3] * end[(i + 2) % 3] - w[(i + 2) % 3] * end[(i + 1) % 3]);
         }
-        const whole = dot(mean, mean), most = Math.max(...mean.map((x) => x * x));
         for (let i = 0; i < 3; ++i) {
             const before = dot(column[i], column[i]);
             for (let j = 0; j < i; ++j) {
                 const along = dot(column[i], column[j]);
                 column[i].forEach((x, k) => (column[i][k] = x - along * column[j][k]));
             }
-            const square = dot(column[i], column[i]), size = square > 1e-20 * before ? Math.sqrt(square) : 0;
+            const square = dot(column[i], column[i]), size = square > 1e-18 * before ? Math.sqrt(square) : 0;
             column[i].forEach((x, k) => (column[i][k] = size > 0 ? x / size : 0));
-            const along = dot(column[i], mean);
-            mean.forEach((x, k) => (mean[k] = x - along * column[i][k]));
+            const along = dot(column[i], rest);
+            rest.forEach((x, k) => (rest[k] = x - along * column[i][k]));
         }
-        return dot(mean, mean) + CONST_PUSHED < whole - most;
+        return dot(rest, rest);
+    }
+
+    /* Does a force on a link explain the change of the residual torques better than any joint alone? */
+    #isAPush(q) {
+        const there = new Float64Array(12 + 9 * N); /* the other one is of the pose, and late */
+        tool(q, there);
+        const rows = this.residual.map((x, k) => (x / CONST_SPLIT - this.level[k]) / (CONST_SCALE * changeBound[k]));
+        const squares = rows.map((x) => x * x), whole = squares.reduce((sum, x) => sum + x, 0);
+        const least = Math.min(...squares.map((_, k) => this.#leftByForce(rows, there, k)));
+        return least + CONST_PUSHED < whole - Math.max(...squares);
     }
 
     /* A cycle after the alarm: sums, which are all that the decision needs. */

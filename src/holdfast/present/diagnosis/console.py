@@ -28,6 +28,7 @@ def to_dict(found: Bounds | Diagnosis) -> dict[str, Any]:
         "joint": v.joint,
         "kind": v.kind if v.alarm else None,
         "loss": v.loss,
+        "uncertainty": v.uncertainty,
         "candidates": list(v.candidates),
         "evidence": list(v.evidence),
         "did_not_move_enough": list(found.untold),
