@@ -101,6 +101,12 @@ def test_a_weak_motor_must_carry_the_arm():
     assert none.answer == "not found"
     assert "gravity asks more" in none.why
     assert feasible(panda, goal, {FaultEvent("limp", "panda_joint4", 0.0): -1.8}).answer == "yes"  # its brake holds it
+    # A stop gives way: a joint 5 mrad beyond it is at it, and one 50 mrad beyond is an error.
+    limp = FaultEvent("limp", "panda_joint7", 0.0)
+    beyond = feasible(panda, goal, {limp: panda.upper[6] + 0.005})
+    assert beyond.q[6] == panda.upper[6]
+    with pytest.raises(InputError, match="its limits are"):
+        feasible(panda, goal, {limp: panda.upper[6] + 0.05})
 
 
 def test_a_reduced_range_is_feasible_where_the_elbow_angle_of_the_goal_is_within_it():

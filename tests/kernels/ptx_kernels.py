@@ -1,34 +1,46 @@
-"""The kernels of a session, as PTX through NVIDIA's assembler: registers and spills of each.
+"""Kernels as PTX through NVIDIA's assembler: registers and spills of each, of a session and of the whole test suite.
 
-``python tests/kernels/ptx_kernels.py`` writes the table anew, in some minutes; it needs the wheel nvidia-cuda-nvcc-cu12.
+As a plugin of pytest, ``-p ptx_kernels`` with this folder in ``PYTHONPATH``, it notes the largest kernel of each name that
+the tests make in the folder ``HOLDFAST_PTX_NOTED``. ``python tests/kernels/ptx_kernels.py [FOLDER]`` then writes the table
+anew, in a quarter of an hour of processor time; it needs the wheel nvidia-cuda-nvcc-cu12.
 """
 
 from __future__ import annotations
 
 import csv
+import json
+import os
 import re
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
+import casadi as ca
 import numpy as np
+import pytest
 
 import holdfast as hf
 import oracles
 from holdfast import arms
+from holdfast.arm.task import as_task
+from holdfast.clearance.object_kernels import outward_kernel
 from holdfast.indices.index import by_name
 from holdfast.indices.susceptibility import by_name as measure_by_name
-from holdfast.kernels import Kernel, Loop
+from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows, _translated
+from holdfast.recovery.rows import row_solver
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
+from holdfast.teleop.trials.plant import Plant
 
 TABLE = Path(__file__).with_name("ptx_table.csv")
 TARGETS = (70, 80, 90)
-LARGE = 8000  # operations: the assembler takes seconds for one of them
-LARGEST = 25_000  # and minutes from here on
+_NOTING, _MADE = pytest.StashKey(), pytest.StashKey()
+LARGE = 8000  # operations: the assembler takes seconds for one of them, 44 for one of 50,000
 
 
 def assembler() -> Path | None:
@@ -41,25 +53,70 @@ def assembler() -> Path | None:
     return next((p for p in places if p.exists()), None)
 
 
-def kernels(large: bool) -> dict[str, tuple]:
-    """Name and operations -> program, numbers in a state (None for what is no loop), of what a session makes."""
-    made: dict[str, tuple] = {}
+@contextmanager
+def noting(backend: str | None = None) -> Iterator[dict[int, tuple]]:
+    """Programs of kernels and loops that are made inside, with the numbers in a loop's state (None for what is no loop)."""
+    made: dict[int, tuple] = {}
     take, loop = Kernel._take, Loop._take
 
-    def noted(self, program, backend):
-        made[f"{program.name}, {program.size} operations"] = program, None
-        take(self, program, "casadi")  # nothing is compiled
+    def noted(self, program, its):
+        made.setdefault(id(program), (program, None))
+        take(self, program, backend or its)
 
     def noted_loop(self, step, *rest):
         loop(self, step, *rest)
-        made[f"{step.name}, {step.program.size} operations"] = step.program, self.size
+        made[id(step.program)] = step.program, self.size
 
     Kernel._take, Loop._take = noted, noted_loop
     try:
-        session(large)
+        yield made
     finally:
         Kernel._take, Loop._take = take, loop
-    return {name: found for name, found in made.items() if found[0].size <= (LARGEST if large else LARGE)}
+
+
+def kernels(large: bool) -> dict[str, tuple]:
+    """Name and operations -> program and numbers in a state, of what a session makes."""
+    with noting("casadi") as made:  # nothing is compiled
+        session(large)
+    return {_name(p): (p, state) for p, state in made.values() if large or p.size <= LARGE}
+
+
+def _name(program: Program) -> str:
+    return f"{program.name}, {program.size} operations"
+
+
+# ---- of the test suite ---------------------------------------------------------------------------------------------
+
+
+def pytest_configure(config):
+    config.stash[_NOTING] = context = noting()
+    config.stash[_MADE] = context.__enter__()
+
+
+def pytest_sessionfinish(session):
+    session.config.stash[_NOTING].__exit__(None, None, None)
+    largest: dict[str, tuple] = {}
+    for program, state in session.config.stash[_MADE].values():
+        if program.name not in largest or largest[program.name][0].size < program.size:
+            largest[program.name] = program, state
+    for program, state in largest.values():
+        said = [program.facts(), state, program.function.serialize()]
+        (Path(os.environ["HOLDFAST_PTX_NOTED"]) / f"{program.digest}.json").write_text(json.dumps(said))
+
+
+def suite(folder: Path) -> dict[str, tuple]:
+    """The largest of each name that were noted in a folder."""
+    largest: dict[str, tuple] = {}
+    for file in sorted(folder.glob("*.json")):
+        facts, state, text = json.loads(file.read_text())
+        if facts[0] not in largest or largest[facts[0]][0].size < facts[3]:
+            program = Program.known(facts, lambda: None)
+            program.function = ca.Function.deserialize(text)
+            largest[facts[0]] = program, state
+    return {_name(program): (program, state) for program, state in largest.values()}
+
+
+# ---- of a session --------------------------------------------------------------------------------------------------
 
 
 def session(large: bool) -> None:
@@ -92,6 +149,11 @@ def session(large: bool) -> None:
         hf.simulate(law, np.ones(3), np.array([1.0, 1.0]), locked=[1], time_limit=0.1)
         hf.control.by_name("failure-tolerant", arms.load("iiwa14")).velocity(np.full(7, 0.5), np.ones(6))
         hf.optimise(panda, poses[0], hf.indices.minimum_singular_value(panda), seed=1, starts=1)
+        measures = hf.indices.susceptibility
+        measures.Together([measures.torque(panda), measures.acceleration(panda)])(q)
+        _ = row_solver(panda, as_task(panda, "pose"))._kernels.loop
+        outward_kernel()
+        Plant(hf.control.by_name("damped:0.1", plane, task="planar"))
 
 
 def assembled(program, state, target: int, ptxas: Path) -> list[int]:
@@ -123,7 +185,8 @@ if __name__ == "__main__":
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow([versions(ptxas)])
         writer.writerow(["kernel", "target sm", "registers", "bytes of spill stores", "bytes of spill loads"])
-        for name, (program, state) in sorted(kernels(large=True).items(), key=lambda found: found[1][0].size):
+        every = kernels(large=True) | (suite(Path(sys.argv[1])) if sys.argv[1:] else {})
+        for name, (program, state) in sorted(every.items(), key=lambda found: (found[1][0].size, found[0])):
             for target in TARGETS:
                 row = [name, target, *assembled(program, state, target, ptxas)]
                 print(*row, flush=True)

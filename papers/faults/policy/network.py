@@ -52,7 +52,7 @@ class Policy:
             error = passed[-1] - actions[rows] / self.limit
             left += float(np.square(error).mean()) / steps
             rate = RATE * (1 - (step - 1) / steps) * (1 - FADE[1] ** step) ** 0.5 / (1 - FADE[0] ** step)
-            for k, slope in self._slopes(passed, error * (2 / batch)):
+            for k, slope in self._slopes(passed, np.asarray(error * (2 / batch), dtype=np.float32)):
                 means[k] += (1 - FADE[0]) * (slope - means[k])
                 squares[k] += (1 - FADE[1]) * (slope * slope - squares[k])
                 self.layers[k] -= np.float32(rate) * means[k] / (np.sqrt(squares[k]) + np.float32(1e-8))
@@ -61,7 +61,7 @@ class Policy:
     def save(self, file: Path) -> None:
         """As an npz."""
         about = np.array([f"{key}: {value}" for key, value in self.about.items()])
-        parts = {f"layer{k}": part for k, part in enumerate(self.layers)}
+        parts: dict[str, Any] = {f"layer{k}": part for k, part in enumerate(self.layers)}
         np.savez_compressed(file, centre=self.centre, spread=self.spread, limit=self.limit, about=about, **parts)
 
     def _passed(self, observation: NDArray[Any]) -> list[Array]:

@@ -96,7 +96,7 @@ class Teacher:
             if not beyond.any():
                 break
             free &= ~beyond
-        return rates * min(1.0, float((self._speeds() / np.maximum(np.abs(rates), 1e-9)).min()))
+        return np.asarray(rates * min(1.0, float((self._speeds() / np.maximum(np.abs(rates), 1e-9)).min())))
 
     # ---- what is known of faults -------------------------------------------------------------------------------------
 

@@ -24,6 +24,7 @@ Answer = Literal["yes", "no", "not found", "unknown"]
 
 _LOCKS = frozenset({"locked", "slipping_clutch"})
 _BRAKED = frozenset({"limp", *SENSOR})
+_YIELD = 0.02  # rad or m, of a stop
 _CONFIGURATIONS = 64  # of a goal at which a weak motor is asked to carry the arm
 
 
@@ -77,7 +78,7 @@ def feasible(
     rows = task or ("position" if where.ndim == 1 else "pose")
     pose = np.eye(4)
     pose[: len(where), 3 if where.ndim == 1 else slice(None)] = where
-    held = {e.joint: place for e, place in places.items() if e.kind in _LOCKS or (brakes and e.kind in _BRAKED)}
+    held = {e.joint: _within(arm, e.joint, x) for e, x in places.items() if e.kind in _LOCKS or (brakes and e.kind in _BRAKED)}
     left = [e for e in places if e.joint not in held]
     swinging = next((e for e in left if e.kind == "limp"), None)
     weak = {e.joint: float(e.parameters.get("gain", e.parameters.get("ceiling", 0.0))) for e in left if e.kind == "weak"}
@@ -103,6 +104,13 @@ def feasible(
     if not found.success:
         return Feasibility("not found", f"no configuration of the goal was found {what}")
     return Feasibility("yes", f"the goal is reached {what}", np.asarray(found.q))
+
+
+def _within(arm: Arm, name: str, place: float) -> float:
+    """Stops give way a little: a joint that is barely beyond one is at it."""
+    joint = arm.joints[arm.joint_index(name)]
+    inside = float(np.clip(place, joint.lower, joint.upper))
+    return inside if abs(inside - place) <= _YIELD else place
 
 
 def _range(arm: Arm, event: FaultEvent, place: float) -> tuple[float, float]:

@@ -55,19 +55,19 @@ class Leaves:
     @classmethod
     def of(cls, found: Found) -> Leaves:
         """Those of a proof; of the lemma that took most where it took more than the rest."""
-        claim, document = found.claim, found.document
-        names, turns, packed = list(claim.arm.joint_names), ~claim.arm.prismatic, document["tree"]
+        arm, document = found.claim.arm, found.document
+        names, turns, packed = list(arm.joint_names), ~arm.prismatic, document["tree"]
         if isinstance(found, Refutation):
             letters = document["target"]["axes"]
-            ends, last, locks = np.vstack([ranges(claim), claim.box]), 2 + len(document["lemmas"]), 256
+            ends, last, locks = np.vstack([ranges(found.claim), found.claim.box]), 2 + len(document["lemmas"]), 256
             names += [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in letters]
             turns = np.append(turns, [axis not in "xyz" for axis in letters])
             lemma = _largest(document)
             if lemma is not None:
-                behind = slice(lemma["link"], claim.arm.n)
+                behind = slice(lemma["link"], arm.n)
                 ends, last, names, turns, packed = ends[behind], 2, names[behind], turns[behind], lemma["tree"]
         else:
-            ends, last, locks = claim.joint_box, 2, verifier.LOCK
+            ends, last, locks = found.claim.joint_box, 2, verifier.LOCK
         tree = verifier.unpacked(packed, 2 * verifier.MOST_LEAVES, "tree")
         tokens = list[int]()
 
@@ -208,8 +208,9 @@ def _boxes(found: Found, leaves: Leaves) -> Figure:
         counts = [np.bincount(leaves.halvings[some]) for some in (~leaves.undecided, leaves.undecided)]
         for k, each in enumerate(counts):
             look = {"facecolor": PALE, "hatch": "////", "linewidth": 0.3} if k else {"facecolor": SKY, "linewidth": 0.6}
-            below = counts[0][: len(each)] if k else np.zeros(len(each))
-            below = np.pad(below, (0, len(each) - len(below)))
+            below = np.zeros(len(each))
+            if k:
+                below[: len(counts[0])] = counts[0][: len(each)]
             bars.bar(np.arange(len(each)), each, bottom=below, width=1.0, edgecolor=INK, **look)
         bars.set(xlabel="halvings of the whole", ylabel="boxes", title="How small they are")
         bars.xaxis.get_major_locator().set_params(integer=True)
