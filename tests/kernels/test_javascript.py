@@ -13,6 +13,7 @@ import pytest
 import javascript as browser
 from holdfast.errors import KernelError
 from holdfast.kernels import Kernel, Program
+from holdfast.kernels.graph import CONST, INPUT, OUTPUT, SELECT
 from holdfast.kernels.javascript_backend import javascript
 from holdfast.kernels.program import OP_NAMES
 
@@ -39,7 +40,7 @@ EXACT = {
     ca.OP_AND: lambda x, y: ca.logic_and(x, y),
     ca.OP_OR: lambda x, y: ca.logic_or(x, y),
     ca.OP_IF_ELSE_ZERO: lambda x, y: ca.if_else(x < y, x, 0),
-    printer._SELECT: lambda x, y: ca.if_else(x < y, y, x - 1),
+    SELECT: lambda x, y: ca.if_else(x < y, y, x - 1),
 }
 ROUNDED = {
     ca.OP_DIV: lambda x, y: x / y,
@@ -111,7 +112,7 @@ def test_random_expressions_of_all_operations(seed, rng):
         values.append(ca.sin(EVERY[op](a, b) + 0.1 * values[rng.integers(5)]))
     out = ca.vertcat(*values[-40:])
     program = Program("all", [x], [out])
-    assert len(forms(program) - {printer._INPUT, printer._CONST, printer._OUTPUT}) > 20
+    assert len(forms(program) - {INPUT, CONST, OUTPUT}) > 20
     points = rng.uniform(-1, 1, (300, 5))
     found = in_node([x], [out], points)
     for backend in ("casadi", "llvm"):
