@@ -94,7 +94,8 @@ def bounds_of(arm: hf.Arm, robots: int) -> Bounds:
 def feasible_with(arm: hf.Arm, trial: Trial, known: hf.FaultRun) -> str:
     """Whether the goal was within reach of what was left: ``yes``, ``not found`` or ``unknown``."""
     (event,) = known.events
-    place = float(known.places[arm.joint_index(event.joint)])
+    j = arm.joint_index(event.joint)
+    place = float(np.clip(known.places[j], arm.lower[j], arm.upper[j]))  # stops are soft: some joints are a little beyond
     return feasible(arm, trial.target, {event: place}, task=trial.law.task).answer
 
 
