@@ -98,7 +98,7 @@ INPUTS = named(
         "engine": "Cell Chunk Column Task",
         "equilibria": "Linearisation",
         "faults": "Fault FaultEvent Faults Log",
-        "diagnosis": "Sensors",
+        "diagnosis": "Push Sensors",
         "indices": "Index",
         "keep": "Kept",
         "indices.susceptibility": "Formula Susceptibility",

@@ -58,9 +58,15 @@ def off(env: Any) -> float:
     return float(np.linalg.norm((data.body("object").xpos - data.body("goal").xpos)[:2]))
 
 
+def seen(env: Any, act: Callable[[Any], Any], *, seed: int, episode: int) -> tuple[np.ndarray, bool]:
+    """What an episode shows, (T + 1, m), and whether it ends with the object at the goal."""
+    observation, _ = env.reset(seed=seed, options={"episode": episode})
+    rows = [observation]
+    for _ in range(STEPS):
+        rows.append(env.step(act(rows[-1]))[0])
+    return np.array(rows), off(env) <= NEAR
+
+
 def finished(env: Any, act: Callable[[Any], Any], *, seed: int, episode: int) -> bool:
     """Whether an episode ends with the object at the goal."""
-    observation, _ = env.reset(seed=seed, options={"episode": episode})
-    for _ in range(STEPS):
-        observation, *_ = env.step(act(observation))
-    return off(env) <= NEAR
+    return seen(env, act, seed=seed, episode=episode)[1]

@@ -175,6 +175,8 @@ class Ascent:
         self.objective, self.task, self.arm = objective, task, objective.arm
         self.clearance, self.margin, self.free = clearance, margin, free
         self.engine: InverseKinematics = solver(self.arm, task)
+        if not free:
+            _ = self._step  # an objective that cannot be climbed says so before anything is computed
 
     @cached_property
     def _step(self) -> Kernel | None:
