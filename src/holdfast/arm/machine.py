@@ -299,11 +299,16 @@ class Machine:
         Errors are divided by it before they are compared with a threshold. A power of two rounds nothing in that: copies of
         an arm in sizes a power of two apart do the same to the last bit. 1 m where nothing has a length.
         """
+        size = self.end_to_end
+        return float(2.0 ** np.round(np.log2(size))) if size > 0 else 1.0
+
+    @property
+    def end_to_end(self) -> float:
+        """Links behind the first joint, the tool, and what slides with limits travel, m: the tool is never farther off."""
         size = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in self.joints[1:])
         size += float(np.linalg.norm(self.tool[:3, 3]))
         slides = [max(abs(j.lower), abs(j.upper)) for j in self.joints if j.prismatic]
-        size += sum(x for x in slides if np.isfinite(x))
-        return float(2.0 ** np.round(np.log2(size))) if size > 0 else 1.0
+        return size + sum(x for x in slides if np.isfinite(x))
 
     @cached_property
     def fingerprint(self) -> str:

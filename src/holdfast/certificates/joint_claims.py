@@ -39,6 +39,11 @@ class BoundClaim:
     threshold: float
     locks: tuple[int, ...]
 
+    @property
+    def most(self) -> float:
+        """What no configuration exceeds: the squares of all sum to n - m, and the least of some is at most their mean."""
+        return float(np.sqrt(min(1.0, (self.arm.n - _SIX[self.task]) / len(self.locks))))
+
 
 @checked
 def ceiling_claim(
@@ -112,12 +117,11 @@ def _bound(
         raise InputError(f"{arm.joint_names[k]} has no limits; give its range")
     if not 1e-6 <= threshold < 1:
         raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
-    # The squares of all relative manipulabilities sum to n - m, so the least of some is at most their mean.
-    most = float(np.sqrt(min(1.0, (arm.n - _SIX[task]) / len(locks))))
-    if threshold >= most:
+    claim = BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)
+    if threshold >= claim.most:
         tail = "nothing to prove" if kind == "ceiling" else "no box has that floor"
-        raise InputError(f"every configuration is at {most:.4g} or below, by the sum over all joints: {tail}")
-    return BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)
+        raise InputError(f"every configuration is at {claim.most:.4g} or below, by the sum over all joints: {tail}")
+    return claim
 
 
 @dataclass(frozen=True, kw_only=True)

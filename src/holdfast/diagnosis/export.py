@@ -26,6 +26,7 @@ from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
 from holdfast.files.output import put
+from holdfast.kernels.c_backend import number
 from holdfast.kernels.javascript_backend import javascript
 from holdfast.notice import says
 from holdfast.result import Result
@@ -158,19 +159,15 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "GROWN": kinds.GROWN,
     }
     named = {name: str(decision.cycles(seconds, dt)) for name, seconds in times.items()}
-    named |= {name: _number(value) for name, value in values.items()}
+    named |= {name: number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
     named_kinds = ", ".join(map(quoted, _KINDS))
     words = {"WITH_TORQUES": torques, "KIND_WORDS": named_kinds, "LATE_CYCLES": str(round(sensors.latency * bounds.rate))}
     return {**words, **{f"CONST_{name}": value for name, value in named.items()}}
 
 
-def _number(value: float) -> str:
-    return "HUGE_VAL" if np.isinf(value) else repr(float(value))
-
-
 def _array(name: str, values: Array) -> str:
-    return f"static const double {name}[{len(values)}] = {{{', '.join(map(_number, values))}}};\n"
+    return f"static const double {name}[{len(values)}] = {{{', '.join(map(number, values))}}};\n"
 
 
 def _functions(arm: Arm, bounds: Bounds) -> dict[str, Function]:
@@ -216,7 +213,7 @@ def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -
         "viscous": bounds.viscous,
         "coulomb": bounds.coulomb,
     }
-    numbers = [f"const {key} = [{', '.join(map(_number, values))}];\n" for key, values in arrays.items()]
+    numbers = [f"const {key} = [{', '.join(map(number, values))}];\n" for key, values in arrays.items()]
     named = f"export const joints = {json.dumps(arm.joint_names)};\n"
     text = "".join(numbers).replace("HUGE_VAL", "Infinity") + named
     return "\n".join(

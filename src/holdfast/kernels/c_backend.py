@@ -232,7 +232,7 @@ def _text(graph: Graph, lines: list[_Line], inputs: list[str], outputs: list[str
     ]
     last = {a: i for i, needs in enumerate(asked) for a in needs}
     last |= {nodes[k].args[0]: len(lines) for k in graph.needed if nodes[k].op == OUTPUT}
-    names = {k: inputs[int(nodes[k].value)] if nodes[k].op == INPUT else _number(nodes[k].value) for k in graph.needed}
+    names = {k: inputs[int(nodes[k].value)] if nodes[k].op == INPUT else number(nodes[k].value) for k in graph.needed}
     free: dict[bool, list[int]] = {True: [], False: []}
     count = {True: 0, False: 0}
     out, ends, depth = [], list[str](), 1
@@ -276,7 +276,7 @@ def _release(names: dict[int, str], needs: list[int], last: dict[int, int], line
             heappush(free[names[a][0] == "c"], int(names[a][1:]))
 
 
-def _number(value: float) -> str:
-    """A constant that reads back as the same double."""
-    text = "HUGE_VAL" if math.isinf(value) else repr(abs(value))
+def number(value: float) -> str:
+    """A constant of C that reads back as the same double."""
+    text = "HUGE_VAL" if math.isinf(value) else repr(abs(float(value)))
     return f"(-{text})" if math.copysign(1, value) < 0 else text

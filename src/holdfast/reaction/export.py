@@ -24,6 +24,7 @@ from holdfast.diagnosis.export import ExportedMonitor
 from holdfast.diagnosis.export import export_c as export_monitor
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.files.output import put
+from holdfast.kernels.c_backend import number
 from holdfast.notice import says
 from holdfast.reaction import controller, masked
 from holdfast.result import Result
@@ -163,14 +164,13 @@ def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "CONST_ARRAYS": "".join(f"constexpr double {key}[{arm.n}] = {{{_listed(x)}}};\n" for key, x in arrays.items()),
         "CONST_SAMPLES": str(controller.SAMPLES),
         "CONST_KNOWN": str(decision.cycles(decision.ISOLATE + decision.CLASSIFY, 1 / bounds.rate)),
-        **{f"CONST_{key}": repr(float(value)) for key, value in values.items()},
+        **{f"CONST_{key}": number(value) for key, value in values.items()},
     }
 
 
 def _listed(values: ArrayLike) -> str:
     """Numbers as C++ writes them."""
-    infinite = {np.inf: "HUGE_VAL", -np.inf: "-HUGE_VAL"}
-    return ", ".join(infinite.get(float(x), repr(float(x) + 0.0)) for x in np.asarray(values))
+    return ", ".join(map(number, np.asarray(values)))
 
 
 def _about(law: Law, bounds: Bounds, name: str) -> str:

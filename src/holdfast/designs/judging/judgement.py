@@ -268,7 +268,7 @@ class _Drawn:
         flat = plane_normal(index.arm) is not None
         rows, options = "planar" if flat else "position", {"points": self.points, "seed": self.seed}
         found = tolerant_workspace(index.arm, rows, optimise=self.best_limits, confidence=CONFIDENCE, **options)
-        length = _length(index.arm)
+        length = index.arm.end_to_end
         whole = np.pi * length**2 if flat else 4 / 3 * np.pi * length**3
         value, low, high = (x / whole for x in (found.size, *found.size_interval))
         interval = Interval(value=value, low=low, high=high, confidence=CONFIDENCE)
@@ -278,11 +278,3 @@ class _Drawn:
 
 def _percents(fraction: float) -> str:
     return f"{100 * fraction:g} %"
-
-
-def _length(arm: Arm) -> float:
-    """No point of the tool is farther from the first joint than this, m."""
-    low, high = finite_limits(arm)
-    travel = np.where(arm.prismatic, np.maximum(np.abs(low), np.abs(high)), 0.0).sum()
-    links = [*(joint.origin[:3, 3] for joint in arm.joints[1:]), arm.tool[:3, 3]]
-    return float(travel + sum(np.linalg.norm(x) for x in links))

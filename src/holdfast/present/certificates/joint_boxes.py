@@ -95,7 +95,7 @@ class Leaves:
         """How often a box was halved, its middle and its half widths."""
         width = (self.ends[:, 1] - self.ends[:, 0]) * 0.5 ** self.depth[which]
         middle = self.ends[:, 0] + width * (self.place[which] + 0.5)
-        scale = np.where(self.turns, 180 / np.pi, 1.0)
+        scale = _shown_as(self.turns)
         texts = [", ".join(f"{x:.4g}" for x in scale * each) for each in (middle, width / 2)]
         return [str(self.halvings[which]), *texts, "undecided" if self.undecided[which] else "proved"]
 
@@ -121,6 +121,11 @@ class Leaves:
             worst = np.maximum(worst, np.kron(each, spread))
             left |= np.kron(open_, spread).astype(bool)
         return worst, left
+
+
+def _shown_as(turns: NDArray[np.bool_]) -> Array:
+    """What values are multiplied by: angles are shown in degrees, slides in metres."""
+    return np.where(turns, 180 / np.pi, 1.0)
 
 
 def _largest(document: dict[str, Any]) -> dict[str, Any] | None:
@@ -151,7 +156,7 @@ def _witness(found: Found) -> Figure:
     arm, q = found.claim.arm, _marked(found)
     spans = ranges(found.claim) if isinstance(found, Refutation) else found.claim.joint_box
     assert q is not None
-    scale = np.where(arm.prismatic, 1.0, 180 / np.pi)
+    scale = _shown_as(~arm.prismatic)
     with style():
         figure = Figure(figsize=(WIDTH, 0.9 + 0.3 * arm.n), layout="constrained")
         axes = figure.subplots()
@@ -171,8 +176,7 @@ def _scale(found: ManipulabilityBound) -> Figure:
 
     claim, up = found.claim, found.claim.kind == "ceiling"
     bound, value = claim.threshold, found.value
-    most = float(np.sqrt(min(1.0, (claim.arm.n - (6 if claim.task == "pose" else 3)) / len(claim.locks))))
-    right = min(most, 1.6 * max(bound, value))
+    right = min(claim.most, 1.6 * max(bound, value))
     with style():
         figure = Figure(figsize=(WIDTH, 1.9), layout="constrained")
         axes = figure.subplots()
@@ -231,7 +235,7 @@ def _plane(axes: Axes, leaves: Leaves, marked: Array | None) -> None:
     from holdfast.report.figures import BLUE, INK, PALE, SKY, plain
 
     pair = leaves.busiest
-    scale = np.where(leaves.turns, 180 / np.pi, 1.0)[list(pair)]
+    scale = _shown_as(leaves.turns)[list(pair)]
     low, high = (leaves.ends[list(pair)] * scale[:, None]).T
     worst, left = leaves.seen(pair)
     shades = LinearSegmentedColormap.from_list("halvings", [SKY, BLUE])
@@ -270,8 +274,7 @@ def _facts(found: Found, of: str) -> Sequence[tuple[str, str]]:
 
 
 def _angles(q: Array, found: Found) -> str:
-    scale = np.where(found.claim.arm.prismatic, 1.0, 180 / np.pi)
-    return ", ".join(f"{x:.4g}" for x in scale * q)
+    return ", ".join(f"{x:.4g}" for x in _shown_as(~found.claim.arm.prismatic) * q)
 
 
 def _out_of_reach(found: Refutation) -> Story:
