@@ -201,9 +201,9 @@ class Crew:
             running = []
             for left, given in zip(range(len(turns), 0, -1), turns, strict=True):
                 now = monotonic()
-                until = now + min((end - now) / left, turn)
-                work = given(until)
-                work.run(until, stop, partial(self._hear_of, work))
+                share = (end - now) / left
+                work = given(now + share / 2)
+                work.run(min(now + share, monotonic() + turn), stop, partial(self._hear_of, work))
                 if work.finished:
                     self._keep(work.job, work.found())
                 else:

@@ -44,6 +44,7 @@ class Pool:
         cells: That the whole would take, estimated; infinite where nobody knows.
         seconds: That this would take here.
         halved: (A,) how often each axis is halved for them, in the mean.
+        wanted: How many more times as many targets the claim asks for; more where there was no time for the first.
     """
 
     def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
@@ -54,12 +55,15 @@ class Pool:
         self._added: list[tuple[Array, Array]] = []
         self._best, self._tree = list[tuple[Array, Array]](), cast(Any, None)
         self._half = np.zeros(len(root))
+        self.wanted = 1
         self.q, self._at = self._grown()
         self.cells, self.halved, self.seconds = self._estimate(self.q, self._at)
+        self.wanted += max(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1, 0)
 
-    def enlarge(self) -> None:
-        """As large as the claim asks; an estimate does without."""
-        for _ in range(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1):
+    def enlarge(self, until: float) -> None:
+        """As large as the claim asks, or as there is time for (``monotonic``); an estimate does without."""
+        self._until = max(self._until, until)
+        while self.wanted and monotonic() < self._until:
             self._grown()
 
     def _grown(self) -> tuple[Array, Array]:
@@ -81,6 +85,7 @@ class Pool:
         best = order[np.unique(at[order], axis=0, return_index=True)[1]]
         found, _, _ = self._climbed(q[best], at[best], wide[best], _BEST)
         self._best.append((at[best] / self._unit, found))
+        self.wanted -= monotonic() < self._until
         return q, at
 
     def _climbed(self, q: Array, at: Array, wide: Array, steps: int) -> tuple[Array, Array, Array]:

@@ -71,8 +71,8 @@ class Search:
         Returns:
             Whether nothing is left to do.
         """
-        if not self.nodes:
-            self.pool.enlarge()
+        if self.pool.wanted:
+            self.pool.enlarge((monotonic() + until) / 2)
         while self._open and monotonic() < until and not stop():
             taken = [heappop(self._open) for _ in range(min(_AT_ONCE, len(self._open)))]
             _, names, *parts, barren = map(np.array, zip(*taken, strict=True))
