@@ -176,7 +176,7 @@ def test_it_reacts_as_in_python(made, rng, fault, joint, ends, out):
 def test_a_second_lock_is_reacted_to_as_in_python(made, rng, first):
     drive = Driven(made)
     modes, _ = moved(drive, first, 2, rng, second=3)
-    assert (modes, drive.joint) == ("running degraded", 3)
+    assert (modes.split()[-1], drive.joint) == ("degraded", 3)
     assert np.flatnonzero(drive.braked).tolist() == [2, 3]
     assert [v.joint for v in drive.ours.verdicts] == [drive.law.arm.joint_names[k] for k in (2, 3)]
     drive.close()

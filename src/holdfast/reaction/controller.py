@@ -35,7 +35,7 @@ NAMED = 2.0  # s after the alarm by which the joint must be known
 FINAL = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
 SLACK = 1e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
 RAMP = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
-LEAST = 0.1  # of a velocity limit: a joint that calibration has hardly moved may be so fast
+LEAST = 0.1  # rad/s or m/s: a joint that calibration has hardly moved may be so fast
 IDLE = 1e-3  # rad/s and m/s: a law that commands less is at its end
 NEARER, PATIENCE = 1e-3, 1.5  # m and rad, s: so is one that does not bring the tool so much nearer in this time
 _EASED = frozenset({"weak", "friction", "sluggish"})
@@ -366,4 +366,4 @@ class Controller:
 def calibrated(arm: Arm, bounds: Bounds) -> Array:
     """(n,) rates that bounds hold for, rad/s and m/s, within the limits; faster joints would alarm for no reason."""
     limits = np.array([joint.velocity for joint in arm.joints])
-    return np.minimum(np.maximum(bounds.speed, LEAST * limits), limits)
+    return np.minimum(np.maximum(bounds.speed, LEAST), limits)

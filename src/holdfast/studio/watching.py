@@ -116,10 +116,12 @@ def _rows(machine: Machine, pose: Array) -> Array:
 def _told(run: FaultRun, found: Diagnosis, onset: float, names: tuple[str, ...]) -> Watched:
     verdict, scaled, every = found.verdict, found.scaled, max(1, len(run.time) // POINTS)
     said: list[tuple[float, str]] = []
+    alarm = float(verdict.time) if verdict.alarm else np.inf
+    named = alarm + (AGAIN if verdict.kind == "sensor" else ISOLATE)
     if verdict.alarm:
-        alarm, *more = [line for line in found.describe() if line.startswith("alarm at")] + list(verdict.evidence)
-        known = verdict.time + (AGAIN if verdict.kind == "sensor" else ISOLATE + CLASSIFY)
-        said = [(known, text) for text in (alarm.partition(": ")[2], *more)]
+        first, *more = [line for line in found.describe() if line.startswith("alarm at")] + list(verdict.evidence)
+        known = named if verdict.kind == "sensor" else named + CLASSIFY
+        said = [(known, text) for text in (first.partition(": ")[2], *more)]
     untold = [f"did not move enough to tell: {', '.join(found.untold)}"] if found.untold else []
     if verdict.alarm and len(verdict.candidates) > 1:
         untold.append(f"not told apart: {', '.join(verdict.candidates)}")
@@ -134,9 +136,9 @@ def _told(run: FaultRun, found: Diagnosis, onset: float, names: tuple[str, ...])
         time=run.time[::every],
         residuals=residuals,
         onset=onset,
-        alarm=float(verdict.time) if verdict.alarm else np.inf,
+        alarm=alarm,
         joint=names.index(verdict.joint) if verdict.joint in names else None,
-        named=np.inf if verdict.joint is None else verdict.time + (AGAIN if verdict.kind == "sensor" else ISOLATE),
+        named=np.inf if verdict.joint is None else named,
         said=tuple(said),
         untold=tuple(untold),
     )
