@@ -99,6 +99,7 @@ class View:
             "laws": state.target is not None and not self._arrived(),
             "region": not isinstance(reading.bars, str),
             "watch": machine.swings and not state.failed,
+            "inject": state.show == "watch" and self.watched is not None and not self._busy,
             "clear": beside or self._busy,
             "tour": True,
             "next": not self._busy,

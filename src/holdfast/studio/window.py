@@ -280,15 +280,25 @@ class Window(View):
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
         )
 
-    def _on_watch(self, _: Any) -> None:
+    def _on_inject(self, _: Any) -> None:
+        """The fault begins now, and the arm moves on from here: until now the motion is the same, whatever the fault."""
+        kind, joint, _ = self.state.fault
+        now = self.state.time
+        self.state = replace(self.state, fault=(kind, joint, now))
+        self._on_watch(now)
+
+    def _on_watch(self, now: float | None) -> None:
         if self.state.target is None:
             self._on_target(None)
+        self.state = replace(self.state, time=now or 0.0)
 
         def show(found: Watched) -> None:
             self.watched = found
             self._show_motions(
                 [found.motion], (ORANGE,), "A joint fails while the arm moves; the monitor sees what a robot would."
             )
+            if now:
+                self.player.play()
 
         self._start_work("Simulating healthy motions, and one with the fault", "watch", show)
 
