@@ -27,6 +27,7 @@ STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and s
 BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking
 SLOW, HALF = 0.3, 0.5  # of the commanded speed
 TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was thought
+LOST = 0.1  # s: what is tried does not go as it is told for so long (servos may saturate before it is far off)
 QUIET = 1.0  # s after which a contact is over
 SPARE = 1.2  # a weak motor must carry gravity so many times
 SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
@@ -110,6 +111,7 @@ class Controller:
         self._way = 0.0  # 1 or -1: the joint that was braked was to go up or down
         self._doubted = True  # what is wrong with it may be less than was thought
         self._trial: int | None = None  # a joint whose brake was released again
+        self._followed = 0.0  # s, when that went last as it was told
         self._lower, self._upper = self.arm.lower.copy(), self.arm.upper.copy()
         self._effort = np.array([joint.effort for joint in self.arm.joints])
         self._most = np.array([joint.velocity for joint in self.arm.joints])
@@ -194,7 +196,10 @@ class Controller:
         if self._trial is not None:
             assert self._bounds is not None
             j = self._trial
-            if abs(behind[j]) > FAR_OFF * self._bounds.tracking[j]:
+            y = abs(behind[j]) / self._bounds.tracking[j]
+            if y < BEHIND or abs(v[j] - wanted[j]) < max(STILL, HALF * abs(wanted[j])):
+                self._followed = time
+            if y > FAR_OFF or time > self._followed + LOST:
                 self._trial = None
                 self._brake(time, self.arm.joint_names[j], "it does not follow")
                 self._stop(time, "what is left does not reach the target")
@@ -354,7 +359,7 @@ class Controller:
             left = Degraded(self.arm, ranges={j: (low, high)})
             found = planned(self._made_for, q, self.law.pose, left)
             if not isinstance(found, str):
-                self._trial, self.law.mask[j], self.pace, self._usual = j, 1.0, TRIAL, TRIAL
+                self._trial, self.law.mask[j], self.pace, self._usual, self._followed = j, 1.0, TRIAL, TRIAL, time
                 self._lower[j], self._upper[j] = low, high
                 self._brakes.release(joint)
                 why = "there is no route without it; slowly, as far as it follows"
