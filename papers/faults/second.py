@@ -30,7 +30,7 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     events = [FaultEvent(kinds[0], arm.joint_names[first], onset)]
 
     def run(**more: Any) -> hf.FaultRun:
-        common = {"body": trial.body, "seed": trial.number, "centring": CENTRING, "time_limit": PLANNED_LIMIT}
+        common: dict[str, Any] = {"body": trial.body, "seed": trial.number, "centring": CENTRING, "time_limit": PLANNED_LIMIT}
         return hf.simulate_faults(trial.law, trial.q0, trial.target, faults=events, **common, **more)
 
     alone = run(monitor=monitor)

@@ -168,10 +168,11 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
     robot.hear(3.5, alarm=False, behind=7.9e-3)
     assert robot.controller.law.mask[1] == 1
     if falls:  # its servo is at its effort, so its reference stays near
-        for time in (3.55, 3.59):
-            robot.hear(time, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
+        for k in range(1, 40):
+            robot.hear(3.5 + 1e-3 * k, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
             assert robot.controller.law.mask[1] == 1
-        robot.hear(3.61, alarm=False, behind=3e-3, v=0.2, wanted=-0.1)
+        for k in range(40, 42):
+            robot.hear(3.5 + 1e-3 * k, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
     else:
         robot.hear(3.6, alarm=False, behind=-8.1e-3)
     assert (robot.did()[-2:], robot.controller.over, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)

@@ -27,7 +27,6 @@ STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and s
 BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking
 SLOW, HALF = 0.3, 0.5  # of the commanded speed
 TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was thought
-LOST = 0.1  # s: what is tried does not go as it is told for so long (servos may saturate before it is far off)
 QUIET = 1.0  # s after which a contact is over
 SPARE = 1.2  # a weak motor must carry gravity so many times
 SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
@@ -111,7 +110,7 @@ class Controller:
         self._way = 0.0  # 1 or -1: the joint that was braked was to go up or down
         self._doubted = True  # what is wrong with it may be less than was thought
         self._trial: int | None = None  # a joint whose brake was released again
-        self._followed = 0.0  # s, when that went last as it was told
+        self._lost, self._heard = 0.0, 0.0  # rad or m that it went otherwise than it was told, until when, s
         self._lower, self._upper = self.arm.lower.copy(), self.arm.upper.copy()
         self._effort = np.array([joint.effort for joint in self.arm.joints])
         self._most = np.array([joint.velocity for joint in self.arm.joints])
@@ -196,10 +195,12 @@ class Controller:
         if self._trial is not None:
             assert self._bounds is not None
             j = self._trial
-            y = abs(behind[j]) / self._bounds.tracking[j]
-            if y < BEHIND or abs(v[j] - wanted[j]) < max(STILL, HALF * abs(wanted[j])):
-                self._followed = time
-            if y > FAR_OFF or time > self._followed + LOST:
+            y, off = abs(behind[j]) / self._bounds.tracking[j], wanted[j] - v[j]
+            follows = y < BEHIND or abs(off) < max(STILL, HALF * abs(wanted[j]))
+            # Where its motor is at its effort its reference does not go ahead, so what it should have done is summed up.
+            self._lost = 0.0 if follows else self._lost + off * (time - self._heard)
+            self._heard = time
+            if max(y, abs(self._lost) / self._bounds.tracking[j]) > FAR_OFF:
                 self._trial = None
                 self._brake(time, self.arm.joint_names[j], "it does not follow")
                 self._stop(time, "what is left does not reach the target")
@@ -359,7 +360,8 @@ class Controller:
             left = Degraded(self.arm, ranges={j: (low, high)})
             found = planned(self._made_for, q, self.law.pose, left)
             if not isinstance(found, str):
-                self._trial, self.law.mask[j], self.pace, self._usual, self._followed = j, 1.0, TRIAL, TRIAL, time
+                self._trial, self.law.mask[j], self.pace, self._usual = j, 1.0, TRIAL, TRIAL
+                self._lost, self._heard = 0.0, time
                 self._lower[j], self._upper[j] = low, high
                 self._brakes.release(joint)
                 why = "there is no route without it; slowly, as far as it follows"
@@ -371,4 +373,4 @@ class Controller:
 def calibrated(arm: Arm, bounds: Bounds) -> Array:
     """(n,) rates that bounds hold for, rad/s and m/s, within the limits; faster joints would alarm for no reason."""
     limits = np.array([joint.velocity for joint in arm.joints])
-    return np.minimum(np.maximum(bounds.speed, LEAST), limits)
+    return np.asarray(np.minimum(np.maximum(bounds.speed, LEAST), limits))

@@ -39,7 +39,7 @@ class Planned:
     @property
     def over(self) -> bool:
         """Whether its end is reached."""
-        return self._at >= self._motion.time[-1]
+        return bool(self._at >= self._motion.time[-1])
 
     def rates(self, q: Array, *, pace: float, dt: float) -> Array:
         """Rates (n,) of the next ``dt`` s along the route at a fraction of its pace, and back to it for an arm at (n,)."""
