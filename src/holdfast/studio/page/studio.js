@@ -123,10 +123,10 @@
     URL.revokeObjectURL(address);
     if (watched?.record !== record) return; // another one came meanwhile
     Object.assign(watched, { Monitor, joints, rows: numbers(rows), poses: numbers(poses), cycle: Infinity });
-    changed();
+    watch();
   }
 
-  function watch() {
+  function watch() { // before the page is drawn: its head comes without words
     const head = document.querySelector(".hf-head"), record = document.querySelector(".hf-record");
     if (record !== (watched?.record ?? null)) {
       watched = record && { record };
@@ -155,13 +155,13 @@
   function changed() {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; mark(); fold(); answer(); watch(); });
+    requestAnimationFrame(() => { waiting = false; mark(); fold(); answer(); });
   }
 
   addEventListener("DOMContentLoaded", () => {
     document.body.append(document.getElementById("holdfast-legend").content);
     document.getElementById("holdfast-legend-box").open = innerWidth > 768;
     const what = { subtree: true, childList: true, characterData: true, attributeFilter: ["aria-hidden"] };
-    new MutationObserver(changed).observe(document.body, what);
+    new MutationObserver(() => { watch(); changed(); }).observe(document.body, what);
   });
 })();
