@@ -143,6 +143,13 @@ class View:
         else:
             self._place(q)
 
+    def _on_time(self, value: float) -> None:
+        self.player.pause()  # who takes the slider stops what plays
+        self.player.seek(value)
+
+    def _on_play(self, _: Any) -> None:
+        self.player.play()
+
     def _on_labels(self, value: bool) -> None:
         self.stage.show_labels(value)
 

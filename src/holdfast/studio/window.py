@@ -280,12 +280,9 @@ class Window(View):
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
         )
 
-    def _on_inject(self, _: Any) -> None:
-        """The fault begins now, and the arm moves on from here: until now the motion is the same, whatever the fault."""
-        kind, joint, _ = self.state.fault
-        now = self.state.time
-        self.state = replace(self.state, fault=(kind, joint, now))
-        self._on_watch(now)
+    def _on_inject(self, _: Any) -> None:  # up to now the motion is the same, whatever the fault
+        self.state = replace(self.state, fault=(*self.state.fault[:2], self.state.time))
+        self._on_watch(self.state.time)
 
     def _on_watch(self, now: float | None) -> None:
         if self.state.target is None:
@@ -382,13 +379,6 @@ class Window(View):
     def _show_motions(self, motions: list[Motion], colors: tuple[Any, ...], text: str) -> None:
         self.panel.say(text)
         self.player.show(motions, colors, self.state.time)
-
-    def _on_time(self, value: float) -> None:
-        self.player.pause()  # who takes the slider stops what plays
-        self.player.seek(value)
-
-    def _on_play(self, _: Any) -> None:
-        self.player.play()
 
     # ---- the tour --------------------------------------------------------------------------------------------------
 
