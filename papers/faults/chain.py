@@ -82,13 +82,18 @@ REACTIONS = {
 LIMIT, PLANNED_LIMIT = 12.0, 24.0  # s
 
 
-def bounds_of(arm: hf.Arm, robots: int) -> Bounds:
-    """Of healthy motion to other targets, by other robots."""
+def bounds_of(arm: hf.Arm, robots: int, file: Path | None = None) -> Bounds:
+    """Of healthy motion to other targets, by other robots; from a file if it is there, else written to it."""
+    if file is not None and file.exists():
+        return hf.diagnosis.load(file)
     logs = []
     for trial in islice(trials(arm, seed=CALIBRATION), robots):
         run = hf.simulate_faults(trial.law, trial.q0, trial.target, body=trial.body, centring=CENTRING, seed=trial.number)
         logs.append(run.log())
-    return calibrate(arm, logs, coulomb=np.full(arm.n, COULOMB), viscous=np.full(arm.n, VISCOUS))
+    found = calibrate(arm, logs, coulomb=np.full(arm.n, COULOMB), viscous=np.full(arm.n, VISCOUS))
+    if file is not None:
+        found.to_json(file)
+    return found
 
 
 def feasible_with(arm: hf.Arm, trial: Trial, known: hf.FaultRun) -> str:
@@ -127,12 +132,13 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     chain = runs["chain"]
     found["feasible"] = feasible_with(arm, trial, runs["known at once, without a plan"])
     found["delay"] = chain.delay if np.isfinite(chain.delay) else None
-    assert chain.verdict is not None
-    found["named"], found["joint right"] = chain.verdict.kind, chain.verdict.joint == event.joint
+    named = {verdict.joint for verdict in chain.verdicts if verdict.joint is not None}
+    found["named"], found["joint right"] = [verdict.kind for verdict in chain.verdicts], named == {event.joint}
     found["braked"] = [a.joint for a in chain.actions if a.what == "brake"]
     found["wrong brake"] = any(joint != event.joint for joint in found["braked"])
     brake = next((a.time for a in chain.actions if a.what == "brake"), None)
     found["braked after"] = None if brake is None else brake - event.onset
+    found["alarms"] = len(chain.verdicts)
     found["planned"], found["ended"] = any(a.what == "plan" for a in chain.actions), chain.outcome
     found["why"] = chain.actions[-1].sentence() if chain.actions else ""
     if found["delay"] is not None and chain.noticed < chain.time[-1]:
@@ -140,6 +146,11 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
         both = arm.forward_kinematics(np.stack([chain.reference[at], chain.q[at]]))[:, :3, 3]
         found["distance"] = 1e3 * float(np.linalg.norm(both[0] - both[1]))
     return found
+
+
+def made_with() -> str:
+    """Versions of what made a table."""
+    return ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
 
 
 def percent(rows: Sequence[Mapping[str, Any]], name: str) -> str:
@@ -171,7 +182,8 @@ def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
     lines = [
         f"{len(late)} of {len(rows)} were noticed, {early} alarms came before the fault; the joint was right in "
         f"{sum(row['joint right'] for row in late)}; {sum(row['wrong brake'] for row in rows)} times a joint that had no fault "
-        f"was braked. {sum(row['planned'] for row in rows)} times the chain planned a route.",
+        f"was braked. {sum(row['planned'] for row in rows)} times the chain planned a route; in "
+        f"{sum(row['alarms'] > 1 for row in rows)} runs something else alarmed after the first alarm.",
         f"False alarms in the same runs without a fault: {sum(row['false alarm'] for row in rows)} in "
         f"{sum(row['hours'] for row in rows):.3g} h. Bounds are those of {robots} other robots, a healthy run each, times 1.5.",
     ]
@@ -196,6 +208,7 @@ def main() -> None:
     parser.add_argument("--arm", default="panda")
     parser.add_argument("--tasks", type=int, default=20, help="tasks that the healthy robot finishes, each with a fault")
     parser.add_argument("--robots", type=int, default=40, help="other robots that bounds are calibrated on")
+    parser.add_argument("--bounds", type=Path, help="file of these bounds: read, or else written")
     parser.add_argument("--store", type=Path, help="lines of JSON, one a task: resumed, and added to")
     chosen = parser.parse_args()
     arm = hf.arms.load(chosen.arm)
@@ -206,7 +219,7 @@ def main() -> None:
     for trial in trials(arm, seed=TASKS):
         entry = stored.get(trial.number)
         if entry is None:
-            monitor = monitor or Monitor(arm, bounds_of(arm, chosen.robots))
+            monitor = monitor or Monitor(arm, bounds_of(arm, chosen.robots, chosen.bounds))
             entry = judged(arm, trial, monitor) or {"number": trial.number}
             if chosen.store:
                 with chosen.store.open("a", encoding="utf-8") as lines:
@@ -216,13 +229,12 @@ def main() -> None:
             print(f"\r{len(rows)} of {chosen.tasks} tasks", end="", file=sys.stderr, flush=True)
         if len(rows) >= chosen.tasks:
             break
-    made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
     text = [
         f"# The chain on {arm.title}",
         "",
         f"Written by `python -m papers.faults.chain --arm {chosen.arm} --tasks {chosen.tasks} --robots {chosen.robots}` on "
-        f"{datetime.now():%Y-%m-%d}; {made}; seeds {TASKS} (tasks and robots), {DRAWS} (faults), {CALIBRATION} (calibration). "
-        "Everything is **simulated**.",
+        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {TASKS} (tasks and robots), {DRAWS} (faults), "
+        f"{CALIBRATION} (calibration). Everything is **simulated**.",
         "",
         f"Each task is of a robot of its own (masses and friction up to 20 % off the model), half of them positions, half "
         f"poses, {AWAY[0]:g} to {AWAY[1]:g} m away; the healthy robot reaches it within {LIMIT:g} s. One fault begins after "

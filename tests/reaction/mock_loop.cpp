@@ -84,7 +84,8 @@ static int by_the_clock(double seconds, const Joints &home) {
     return 0;
 }
 
-// In: period, told, effort, twist, whether there is a pose and that. Out: mode, joint, watching, time, place, rates, reference, brake.
+// In: period, told, effort, twist, whether there is a pose and that. Out: mode, joint, watching, time, its place, rates, reference,
+// brake.
 static int step_by_step(const Joints &home, const Options &options) {
     double in[1 + 2 * joints + 6 + 17], out[5 + 3 * joints];
     Arm arm(home, options);
@@ -96,7 +97,7 @@ static int step_by_step(const Joints &home, const Options &options) {
         else arm.update(0, in[0]);
         const Status &status = arm.brain.status();
         out[0] = static_cast<double>(status.mode), out[1] = status.joint, out[2] = status.watching, out[3] = status.time;
-        out[4] = status.place;
+        out[4] = status.joint < 0 ? not_known : status.place[status.joint];
         for (int k = 0; k < joints; ++k) {
             out[5 + k] = arm.command[k], out[5 + joints + k] = status.reference[k], out[5 + 2 * joints + k] = status.brake[k];
         }

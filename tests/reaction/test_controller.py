@@ -10,20 +10,20 @@ import pytest
 import holdfast as hf
 from holdfast.diagnosis import Verdict
 from holdfast.reaction.controller import Controller
-from holdfast.reaction.plan import Planned
+from holdfast.reaction.plan import planned
 
 JOINTS = hf.arms.load("panda").joint_names
-TRACKING = np.full(7, 1e-3)
+BOUNDS = SimpleNamespace(tracking=np.full(7, 1e-3), speed=np.full(7, 0.5))
 
 
 class Robot:
     """Brakes and a monitor that are only counted."""
 
     def __init__(self, react="chain", rates=0.1, plan=False):
-        self.braked, self.released, self.rearmed, arm = [], [], 0, hf.arms.load("panda")
+        self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
         law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
         self.controller = Controller(
-            law, SimpleNamespace(arm=arm), tracking=TRACKING, brakes=self, rearm=self.rearm, react=react, plan=plan
+            law, SimpleNamespace(arm=arm), bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan
         )
 
     def brake(self, joint):
@@ -35,10 +35,13 @@ class Robot:
     def rearm(self):
         self.rearmed += 1
 
-    def hear(self, time, *, behind=0.0, v=0.1, wanted=0.1, gravity=0.0, **verdict):
+    def leave_out(self, joint):
+        self.left.append(joint)
+
+    def hear(self, time, *, behind=0.0, v=0.1, wanted=0.1, gravity=0.0, alarm=True, **verdict):
         told = {"joint": JOINTS[1], "candidates": (), **verdict}
         rows = {name: np.full(7, x) for name, x in (("behind", behind), ("v", v), ("wanted", wanted), ("gravity", gravity))}
-        self.controller.hear(time, Verdict(True, 1.0, **told), **rows)
+        self.controller.hear(time, Verdict(alarm, 1.0, **told), **rows)
 
     def did(self):
         return [action.what for action in self.controller.actions]
@@ -48,8 +51,35 @@ class Robot:
 def test_what_stops_a_joint_is_braked(kind):
     robot = Robot()
     robot.hear(1.0, kind=kind)
-    assert (robot.braked, robot.did(), robot.controller.reacted) == ([JOINTS[1]], ["alarm", "brake"], True)
+    assert (robot.braked, robot.did()) == ([JOINTS[1]], ["alarm", "brake"])
     assert robot.controller.law.mask.tolist() == [1, 0, 1, 1, 1, 1, 1]
+
+
+def test_after_a_brake_the_others_are_watched_on_and_a_second_fault_is_reacted_to():
+    robot = Robot()
+    robot.hear(1.0, kind="locked")
+    robot.hear(1.04, kind="limp", joint=JOINTS[3])  # the arm waits: what is seen now is of the brake
+    assert (robot.braked, robot.left) == ([JOINTS[1]], [])
+    robot.hear(1.06, kind="locked")
+    assert robot.left == [JOINTS[1]]
+    robot.hear(3.0, joint=JOINTS[3])
+    robot.hear(3.1, kind="limp", joint=JOINTS[3])
+    assert (robot.did(), robot.braked) == (["alarm", "brake"] * 2, [JOINTS[1], JOINTS[3]])
+    assert robot.controller.law.mask.tolist() == [1, 0, 1, 0, 1, 1, 1]
+    robot.hear(3.2, kind="limp", joint=JOINTS[3])
+    assert (robot.left, robot.controller.pace) == ([JOINTS[1], JOINTS[3]], 1.0)
+    assert [(v.joint, v.kind) for v in robot.controller.verdicts] == [(JOINTS[1], "locked"), (JOINTS[3], "limp")]
+
+
+def test_after_a_joint_was_slowed_for_good_a_push_leaves_the_pace_as_it_was():
+    robot = Robot()
+    for time in (1.0, 1.7):
+        robot.hear(time, kind="friction")
+    assert (robot.left, robot.braked) == ([JOINTS[1]], [])
+    robot.hear(2.0, kind="contact", joint=None)
+    assert robot.controller.pace == 0.3
+    robot.hear(3.1, kind="contact", joint=None)
+    assert (robot.did()[-1], robot.controller.pace) == ("resume", 0.5)
 
 
 @pytest.mark.parametrize(
@@ -90,7 +120,6 @@ def test_a_push_slows_the_arm_for_a_second_and_blames_nobody():
     assert (robot.did(), robot.controller.pace) == (["alarm", "slow"], 0.3)
     robot.hear(2.01, kind="contact", joint=None)
     assert (robot.did()[-1], robot.controller.pace, robot.rearmed, robot.braked) == ("resume", 1.0, 1, [])
-    assert not robot.controller.reacted
 
 
 def test_a_joint_that_stays_unknown_stops_the_arm_and_so_does_any_alarm_without_a_chain():
@@ -115,28 +144,37 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
     assert near == pytest.approx(np.sqrt(2 * 10.0 * 0.05))
 
 
+@pytest.mark.parametrize("falls", [True, False])
 @pytest.mark.parametrize("at_a_stop", [True, False])
-def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(monkeypatch, at_a_stop):
+def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(monkeypatch, at_a_stop, falls):
     """At a stop, or slow, a joint looks as one that drives nothing."""
     asked, q, arm = [], np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), hf.arms.load("panda")
 
-    def planned(law, q, target, left, *, time, pace=1.0):
-        asked.append((left, pace))
+    def some(law, q, target, left):
+        asked.append(left)
         if left.locked or (left.ranges[JOINTS[1]][1] < arm.upper[1] and not at_a_stop):
             return "no route"
-        return Planned(start=time, q=np.stack([q, q - 0.1]), at=time + np.array([0.0, 1.0]))
+        return SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
 
-    monkeypatch.setattr("holdfast.reaction.controller.planned", planned)
+    monkeypatch.setattr("holdfast.reaction.controller.planned", some)
     robot = Robot(rates=0.0, plan=True)
-    robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
+    for time in (1.0, 1.2):
+        robot.hear(time, kind="limp", v=0.05, wanted=0.1)
     robot.controller.rates(3.0, q)
     assert (robot.did(), robot.released) == (["alarm", "brake", "release", "plan"], [JOINTS[1]])
-    tries = [({}, {JOINTS[1]: (arm.lower[1], end)}, 0.2) for end in ((0.4,) if at_a_stop else (0.4, arm.upper[1]))]
-    assert [(dict(left.locked), dict(left.ranges), pace) for left, pace in asked] == [({JOINTS[1]: 0.4}, {}, 1.0), *tries]
-    assert not robot.controller.reacted  # the joint is watched
-    robot.hear(3.5, kind="limp", behind=7.9e-3)
+    tries = [({}, {JOINTS[1]: (arm.lower[1], end)}) for end in ((0.4,) if at_a_stop else (0.4, arm.upper[1]))]
+    assert [(dict(left.locked), dict(left.ranges)) for left in asked] == [({JOINTS[1]: 0.4}, {}), *tries]
+    assert robot.controller.pace == 0.2
+    robot.hear(3.5, alarm=False, behind=7.9e-3)
     assert robot.controller.law.mask[1] == 1
-    robot.hear(3.6, kind="limp", behind=-8.1e-3)
+    if falls:  # its servo is at its effort, so its reference stays near
+        for k in range(1, 40):
+            robot.hear(3.5 + 1e-3 * k, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
+            assert robot.controller.law.mask[1] == 1
+        for k in range(40, 42):
+            robot.hear(3.5 + 1e-3 * k, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
+    else:
+        robot.hear(3.6, alarm=False, behind=-8.1e-3)
     assert (robot.did()[-2:], robot.controller.over, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)
     assert robot.braked == [JOINTS[1]] * 2
 
@@ -147,3 +185,24 @@ def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
     robot.controller.know(1.0, "sensor_freeze", JOINTS[1], 0.3)
     robot.controller.rates(3.0, np.zeros(7))
     assert (robot.did()[-1], robot.released) == ("stop", [])
+
+
+def test_a_route_is_run_through_at_its_pace_and_slowed_down_keeps_to_its_line():
+    arm = hf.arms.load("panda")
+    law = hf.control.damped(arm, 0.02, speed_limit=0.25)
+    q = np.array([0.2, 0.3, 0.1, -1.6, 0.4, 1.5, 0.3])
+    goal = arm.forward_kinematics(q + np.array([0.5, -0.3, 0.4, 0.0, 0.6, 0.2, -0.4]))
+    lines = []
+    for pace in (1.0, 0.4):
+        route, here, line = planned(law, q, goal, hf.Degraded(arm, locked={3: q[3]})), q, [q]
+        while not route.over:
+            here = here + 2e-3 * route.rates(here, pace=pace, dt=2e-3)
+            line.append(here)
+        lines.append(np.array(line))
+        seconds = 2e-3 * (len(line) - 1)
+        assert seconds == pytest.approx(route.duration / pace, rel=0.02)
+        tool = np.linalg.norm(np.diff(arm.forward_kinematics(lines[-1])[:, :3, 3], axis=0), axis=1) / 2e-3
+        assert 0.2 * pace < tool.max() < 0.26 * pace
+        assert arm.forward_kinematics(here) == pytest.approx(goal, abs=2e-3)
+    near = np.abs(lines[0][:, None, :] - lines[1][None, ::5, :]).max(axis=2).min(axis=1)
+    assert near.max() < 0.02

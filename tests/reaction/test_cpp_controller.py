@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,7 @@ needs_compilers = pytest.mark.skipif(CPP is None or c_monitor.COMPILER is None, 
 def made(tmp_path_factory):
     """The files for a Panda, and the mock hardware, compiled with sanitisers."""
     arm, folder = hf.arms.load("panda"), tmp_path_factory.mktemp("controller")
-    law, bounds = hf.control.damped(arm, 0.02), c_monitor.bounds_of(arm)
+    law, bounds = hf.control.damped(arm, 0.02), replace(c_monitor.bounds_of(arm), speed=np.full(7, 0.2))
     files = hf.reaction.export_controller(law, bounds, folder)
     sanitised = ("-O0", "-ffp-contract=off", *c_monitor.SANITISED)
     for source in ("controller_law.c", "controller_monitor.c"):
@@ -65,9 +66,9 @@ class Driven:
         self.ours = Controller(
             self.masked,
             self.law,
-            tracking=self.bounds.tracking,
+            bounds=self.bounds,
             brakes=self,
-            rearm=self.monitor.rearm,
+            watch=self.monitor,
             react="chain",
             plan=False,
         )
@@ -83,18 +84,18 @@ class Driven:
         out = np.frombuffer(self.process.stdout.read(8 * 26))
         self.mode, self.joint, self.watching, self.time = MODES[int(out[0])], int(out[1]), bool(out[2]), out[3]
         before, self.place, self.rates, self.reference, self.braked = self.rates, out[4], out[5:12], out[12:19], out[19:]
-        if not self.ours.reacted:
-            verdict = self.monitor.step(told, self.reference, effort, pose=pose)
-            signals = {"v": self.monitor._v, "wanted": before, "gravity": self.monitor._gravity}
-            self.ours.hear(self.time, verdict, behind=self.reference - told, **signals)
-        elif pose is not None:
+        q = self.ours.believed(told)
+        if pose is not None:
             self.ours.feel(self.time, told, pose)
+        verdict = self.monitor.step(q, self.reference, effort, pose=pose)
+        signals = {"v": self.monitor._v, "wanted": before, "gravity": self.monitor._gravity}
+        self.ours.hear(self.time, verdict, behind=self.reference - q, **signals)
         return self.rates
 
     @property
     def expected(self):
         """Mode and joint by Python."""
-        (out,) = (np.flatnonzero(self.masked.mask == 0).tolist() or [-1])[:1]
+        out = self.ours._braked
         mode = "stopped" if self.ours.over else "degraded" if out >= 0 else "slowed" if self.ours.pace < 1 else "running"
         return mode, out
 
@@ -105,15 +106,17 @@ class Driven:
         self.process.stdout.close()
 
 
-def moved(drive, fault, joint, rng, *, brakes=True):
+def moved(drive, fault, joint, rng, *, brakes=True, second=None):
     """An arm whose torques are those of the model, with a fault: modes that it went through, and its true places."""
     arm, body = drive.law.arm, drive.bounds.body(drive.law.arm)
     q, v, modes, sensor = START.copy(), np.zeros(7), [], np.zeros(7)
-    for k in range(900):
+    for k in range(900 if second is None else 1900):
         after = k > 250
         target = drive.rates + (v - drive.rates) * np.exp(-1 / 16)
         if after and fault == "locked":
             target[joint] = 0
+        if k > 1200 and second is not None:
+            target[second] = 0
         if after and fault == "limp" and not drive.braked[joint]:  # nothing acts on it but the others
             one = np.eye(7)[joint]
             still = body.inverse_dynamics(q, v, np.where(one, 0, (target - v) * RATE))
@@ -126,7 +129,9 @@ def moved(drive, fault, joint, rng, *, brakes=True):
         effort = body.inverse_dynamics(q, v, acceleration) + 0.3 * v + drive.bounds.coulomb * np.tanh(v / 0.02)
         if after and fault in ("locked", "limp"):
             effort[joint] += 900 * (drive.reference[joint] - q[joint])
-        elif after and fault == "weak":
+        if k > 1200 and second is not None:
+            effort[second] += 900 * (drive.reference[second] - q[second])
+        if after and fault == "weak":
             effort[joint] /= 0.45
         elif after and fault == "push":
             effort -= arm.jacobian(q)[:3].T @ [20.0, -30.0, 25.0]
@@ -138,7 +143,7 @@ def moved(drive, fault, joint, rng, *, brakes=True):
         twist = 0.04 * np.sin(np.arange(6) + k / 300) * min(1, k / 100)
         drive(q + sensor + rng.normal(0, 2e-5, 7), effort, twist, pose)
         assert not brakes or (drive.mode, drive.joint) == drive.expected, (fault, k)
-        assert list(np.flatnonzero(drive.braked)) == ([] if drive.joint < 0 else [drive.joint])
+        assert (drive.braked > 0).tolist() == (drive.masked.mask == 0).tolist() or not brakes
         if not modes or modes[-1] != drive.mode:
             modes.append(drive.mode)
     return " ".join(modes), q
@@ -163,6 +168,17 @@ def test_it_reacts_as_in_python(made, rng, fault, joint, ends, out):
     if fault == "sensor":
         assert drive.place == pytest.approx(drive.ours.believed(q)[joint], abs=1e-5)
         assert drive.place == pytest.approx(q[joint], abs=2e-3)
+    drive.close()
+
+
+@needs_compilers
+@pytest.mark.parametrize("first", ["locked", "sensor"])
+def test_a_second_lock_is_reacted_to_as_in_python(made, rng, first):
+    drive = Driven(made)
+    modes, _ = moved(drive, first, 2, rng, second=3)
+    assert (modes.split()[-1], drive.joint) == ("degraded", 3)
+    assert np.flatnonzero(drive.braked).tolist() == [2, 3]
+    assert [v.joint for v in drive.ours.verdicts] == [drive.law.arm.joint_names[k] for k in (2, 3)]
     drive.close()
 
 

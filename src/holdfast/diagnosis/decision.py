@@ -36,6 +36,7 @@ class Decision:
         sensors: How good they are.
         time: Of the alarm, s.
         level: (n,) of the residual torques before it, N m and N.
+        joints: (n,) those that are watched.
         torques: Whether torques are watched.
         tool: Whether the tool's pose is measured at all.
         tool_alone: Whether nothing but the tool's pose alarmed.
@@ -49,6 +50,7 @@ class Decision:
         *,
         time: float,
         level: Array,
+        joints: NDArray[np.bool_],
         torques: bool,
         tool: bool,
         tool_alone: bool,
@@ -64,7 +66,8 @@ class Decision:
         self._kinds: Kinds | None = None
         self._suspect = tool_alone
         self._weight = np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
-        self._left, self._poses = np.zeros(n), 0
+        self._left, self._poses = np.where(joints, 0.0, np.inf), 0
+        self._scale = np.where(joints, SCALE * bounds.change, np.inf)
         self._told: tuple[int, float] | None = None
 
     def add(self, q: Array, reference: Array, signals: tuple[Array, Array, Array, Array], z: Array, y: Array) -> None:
@@ -115,7 +118,7 @@ class Decision:
     def _isolate(self, q: Array) -> None:
         """The joint with the largest residuals, unless a force on a link explains the residual torques better than it."""
         if self._torques:
-            self.push = _better_by_force(self._arm, q, self._residual / self._split - self._level, SCALE * self._bounds.change)
+            self.push = _better_by_force(self._arm, q, self._residual / self._split - self._level, self._scale)
         i, bounds = int(self._size.argmax()), self._bounds
         both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
         dry = float(bounds.coulomb[i])

@@ -80,7 +80,14 @@ class Monitor:
     def _decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], before: Array) -> Decision:
         watched = {"torques": "torque" in levels, "tool": "tool" in levels}
         return Decision(
-            self.arm, self.bounds, self.sensors, time=time, level=before, **watched, tool_alone=alarmed == ("tool",)
+            self.arm,
+            self.bounds,
+            self.sensors,
+            time=time,
+            level=before,
+            joints=self._watched,
+            **watched,
+            tool_alone=alarmed == ("tool",),
         )
 
     def _followed(self, log: Log, signals: Signals, scaled: Scaled, row: int, alarmed: tuple[str, ...]) -> Verdict:
@@ -119,6 +126,7 @@ class Monitor:
         self._missed, self._known, self._anew, self._past = 0, 0, 0, np.full((self._late + 1, self.arm.n), np.nan)
         self._reference: Array | None = None
         self._last = np.zeros((SMOOTHED, 6))
+        self._watched = np.ones(self.arm.n, dtype=bool)
         self.rearm()
 
     def rearm(self) -> None:
@@ -126,6 +134,26 @@ class Monitor:
         self._over_z, self._over_y, self._over_w = np.zeros(self.arm.n), np.zeros(self.arm.n), 0.0
         self._alarm: Decision | None = None
         self.verdict = Verdict(False)
+
+    def leave_out(self, joint: str) -> None:
+        """Watch on without a joint that was stopped, until :meth:`reset`: the alarm is forgotten.
+
+        Its torques are its brake's, and where it is may be known better than by its sensor: what follows the motion begins
+        anew, and for 50 ms the torques tell nothing.
+
+        Args:
+            joint: Its name.
+
+        Raises:
+            InputError: The arm has no such joint.
+        """
+        self._watched[self.arm.joint_index(joint)] = False
+        self._begin_anew()
+        self._past[:], self._last[:], self._seen = np.nan, 0.0, 0
+        self.rearm()
+
+    def _begin_anew(self) -> None:
+        self._q, self._r, self._anew = None, np.zeros(self.arm.n), self._longest + 1
 
     def step(
         self, q: ArrayLike, reference: ArrayLike, torque: ArrayLike | None = None, *, pose: ArrayLike | None = None
@@ -150,8 +178,8 @@ class Monitor:
         elapsed = (self._missed + 1) * self._dt  # longer after cycles that were passed over
         self._bridge(place, tau)
         self._observe(place, tau)
-        z = np.abs(self._r) / self.bounds.torque
-        y = self._tracking(wanted, place, elapsed, alone=tau is None)
+        z = np.where(self._watched, np.abs(self._r) / self.bounds.torque, 0.0)
+        y = np.where(self._watched, self._tracking(wanted, place, elapsed, alone=tau is None), 0.0)
         self._over_z = np.maximum(0.0, self._over_z + (z - 1) * self._dt)
         self._over_y = np.maximum(0.0, self._over_y + np.nan_to_num(y - 1) * self._dt)
         then = self._past[(self._cycle + 1) % len(self._past)]
@@ -182,7 +210,7 @@ class Monitor:
     def _bridge(self, q: Array, tau: Array | None) -> None:
         """Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled."""
         if self._q is not None and self._missed > self._longest:
-            self._q, self._r, self._anew = None, np.zeros(len(q)), self._longest + 1
+            self._begin_anew()
         elif self._q is not None and self._missed:
             start, step = self._q, (q - self._q) / (self._missed + 1)
             torque = self._felt / self._known if self._known == self._missed else self._tau

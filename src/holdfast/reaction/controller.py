@@ -5,21 +5,20 @@ Source: derived here; braking turns a free-swinging joint into a locked one, Eng
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
 from holdfast.control.law import Law
+from holdfast.diagnosis.bounds import Bounds
+from holdfast.diagnosis.kinds import Verdict
 from holdfast.failures import Degraded
 from holdfast.reaction.masked import MaskedLaw
-from holdfast.reaction.plan import Planned, planned
+from holdfast.reaction.plan import ACCELERATION, Planned, planned
 from holdfast.reaction.run import Action, React, What
-
-if TYPE_CHECKING:
-    from holdfast.diagnosis.kinds import Verdict
 
 Array = NDArray[np.float64]
 
@@ -31,11 +30,12 @@ TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was t
 QUIET = 1.0  # s after which a contact is over
 SPARE = 1.2  # a weak motor must carry gravity so many times
 SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
+LATER = 0.5  # s more, for measured poses that come more slowly
 NAMED = 2.0  # s after the alarm by which the joint must be known
 FINAL = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
-SLACK = 3e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
+SLACK = 1e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
 RAMP = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
-ACCELERATION = 10.0  # rad/s^2 or m/s^2, of commanded rates
+LEAST = 0.1  # rad/s or m/s: a joint that calibration has hardly moved may be so fast
 IDLE = 1e-3  # rad/s and m/s: a law that commands less is at its end
 NEARER, PATIENCE = 1e-3, 1.5  # m and rad, s: so is one that does not bring the tool so much nearer in this time
 _EASED = frozenset({"weak", "friction", "sluggish"})
@@ -53,21 +53,34 @@ class Brakes(Protocol):
         ...
 
 
+class Watch(Protocol):
+    """What sees faults."""
+
+    def rearm(self) -> None:
+        """Watch on after an alarm."""
+        ...
+
+    def leave_out(self, joint: str) -> None:
+        """Watch on, but not this joint."""
+        ...
+
+
 class Controller:
-    """A law, and what it becomes.
+    """A law, and what it becomes: with one joint less after each fault that is found.
 
     Args:
         law: The law, masked by this class.
         made_for: The law that it is of.
-        tracking: (n,) bounds of the distance from the references, rad and m; None without a monitor.
+        bounds: Of the monitor; None without one.
         brakes: Of the joints.
-        rearm: Lets the monitor watch on after a push.
+        watch: The monitor; None without one.
         react: Who notices.
         plan: Whether a route is planned where the masked law ends off the target.
 
     Attributes:
         pace: Fraction of the commanded speed that is aimed at.
         actions: What was done so far.
+        verdicts: What each alarm came to.
         over: The controller has given up.
     """
 
@@ -76,34 +89,32 @@ class Controller:
         law: MaskedLaw,
         made_for: Law,
         *,
-        tracking: Array | None,
+        bounds: Bounds | None,
         brakes: Brakes,
-        rearm: Callable[[], None],
+        watch: Watch | None,
         react: React,
         plan: bool,
     ) -> None:
         self.law, self.arm, self._made_for = law, made_for.arm, made_for
-        self._tracking, self._brakes, self._rearm, self._react, self._plans = tracking, brakes, rearm, react, plan
-        self.pace, self.over, self.actions = 1.0, False, list[Action]()
+        self._bounds, self._brakes, self._watch, self._react, self._plans = bounds, brakes, watch, react, plan
+        self.pace, self.over, self.actions, self.verdicts = 1.0, False, list[Action](), list[Verdict]()
         self._pace = self._time = self._since = 0.0
         self._nearest = np.inf
         self._alarm = self._settled = self._quiet = np.inf
-        self._decided = False
+        self._usual = 1.0  # pace with what has failed so far
+        self._named: str | None = None  # the joint that the alarm is about, once something is done about it
+        self._may_plan, self._braked = plan, -1  # once after each brake; the last one
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
-        self._poses: list[tuple[Array, Array]] = []
+        self._poses, self._seen = list[tuple[Array, Array]](), False
         self._planned: Planned | None = None
         self._way = 0.0  # 1 or -1: the joint that was braked was to go up or down
         self._doubted = True  # what is wrong with it may be less than was thought
         self._trial: int | None = None  # a joint whose brake was released again
+        self._lost, self._heard = 0.0, 0.0  # rad or m that it went otherwise than it was told, until when, s
         self._lower, self._upper = self.arm.lower.copy(), self.arm.upper.copy()
         self._effort = np.array([joint.effort for joint in self.arm.joints])
         self._most = np.array([joint.velocity for joint in self.arm.joints])
         self._commanded = np.zeros(self.arm.n)
-
-    @property
-    def reacted(self) -> bool:
-        """What is wrong is known, and nothing is left to be watched for."""
-        return (self._decided and self._trial is None) or self.over
 
     @property
     def degraded(self) -> Degraded | None:
@@ -138,18 +149,22 @@ class Controller:
     def _wanted(self, time: float, told: Array) -> Array:
         """What the law or the route asks for."""
         q = self._last = self.believed(told)
-        most = RAMP * (time - self._time)
-        self._time, self._pace = time, self._pace + min(max(self.pace - self._pace, -most), most)
+        dt = time - self._time
+        self._time, self._pace = time, self._pace + min(max(self.pace - self._pace, -RAMP * dt), RAMP * dt)
         if self._planned is not None:
-            if not self._planned.over(time):
-                return self._planned.rates(time, q)
+            if not self._planned.over:
+                return self._planned.rates(q, pace=self._pace, dt=dt)
             self._planned = None
         rates = self.law.rates(q)
-        if np.isfinite(self._settled) and time <= self._settled:
+        if self._waits(time):
             self._pace, self._since, self._nearest = 0.0, time, np.inf  # the arm waits until it knows where that joint is
-        elif self._plans and not self.over and self.law.mask.min() == 0 and self._at_its_end(time, rates):
+        elif self._may_plan and not self.over and self.law.mask.min() == 0 and self._at_its_end(time, rates):
             return self._end_of_law(time, q)
         return self._pace * rates
+
+    def _waits(self, time: float) -> bool:
+        later = LATER if 0 < len(self._poses) < SAMPLES else 0.0
+        return bool(np.isfinite(self._settled) and time <= self._settled + later)
 
     def _at_its_end(self, time: float, rates: Array) -> bool:
         off = self.law.miss + self.law.turn
@@ -175,29 +190,38 @@ class Controller:
             wanted: (n,) commanded ones.
             gravity: (n,) torques, N m and N.
         """
-        if self.reacted:
+        if self.over or self._waits(time):
             return
         if self._trial is not None:
-            assert self._tracking is not None
+            assert self._bounds is not None
             j = self._trial
-            if abs(behind[j]) > FAR_OFF * self._tracking[j]:
-                self._trial, self._planned = None, None
+            y, off = abs(behind[j]) / self._bounds.tracking[j], wanted[j] - v[j]
+            follows = y < BEHIND or abs(off) < max(STILL, HALF * abs(wanted[j]))
+            # Where its motor is at its effort its reference does not go ahead, so what it should have done is summed up.
+            self._lost = 0.0 if follows else self._lost + off * (time - self._heard)
+            self._heard = time
+            if max(y, abs(self._lost) / self._bounds.tracking[j]) > FAR_OFF:
+                self._trial = None
                 self._brake(time, self.arm.joint_names[j], "it does not follow")
                 self._stop(time, "what is left does not reach the target")
+                return
+        if self._named is not None and self.law.mask[self.arm.joint_index(self._named)] == 0:
+            self._go_on()
             return
         if time > self._quiet:
             self._act(time, "resume", "no joint was named")
-            self.pace, self._alarm, self._quiet = 1.0, np.inf, np.inf
-            self._rearm()
+            self._go_on()
             return
         if not verdict.alarm:
             return
         if np.isinf(self._alarm):
             self._alarm = time
+            self.verdicts.append(verdict)
             self._act(time, "alarm", "something is outside its bounds")
             if self._react == "stop":
                 self._stop(time, "every joint, at the first alarm")
                 return
+        self.verdicts[-1] = verdict
         if verdict.joint is None:
             if verdict.kind == "contact":
                 if np.isinf(self._quiet):
@@ -210,19 +234,31 @@ class Controller:
         self._doubted = verdict.kind != "sensor"
         self._way = float(np.sign(wanted[i]))
         if verdict.kind in _EASED:
-            if self.pace == HALF:
-                self._decided = time > self._alarm + FINAL
+            if self._named == verdict.joint:
+                if time > self._alarm + FINAL:
+                    self._go_on()
                 return
             left = (1 - verdict.loss) * self._effort[i]  # not a number where no loss is told
             if left < SPARE * abs(gravity[i]):
                 self._brake(time, verdict.joint, "what its motor still gives does not carry the arm")
             else:
-                self.pace = HALF
+                self.pace, self._named = min(self._usual, HALF), verdict.joint
                 self._act(time, "slow", f"its fault: {verdict.kind}", joint=verdict.joint)
         elif verdict.kind != "unknown" or verdict.candidates:
             self._brake(time, verdict.joint, f"its fault: {verdict.kind}")
         elif time >= self._alarm + AT_ONCE:
             self._at_once(time, verdict.joint, float(behind[i]), float(v[i]), float(wanted[i]))
+
+    def _go_on(self) -> None:
+        """Watch on: without the joint that was named, and at the pace that what has failed leaves."""
+        assert self._watch is not None
+        if self._named is None:
+            self._watch.rearm()
+        else:
+            self._watch.leave_out(self._named)
+            if self.law.mask[self.arm.joint_index(self._named)] > 0:
+                self._usual = min(self._usual, HALF)
+        self.pace, self._alarm, self._quiet, self._named = self._usual, np.inf, np.inf, None
 
     def know(self, time: float, kind: str, joint: str, true: float) -> None:
         """React to a fault that is known at once, with the joint's true place, rad or m."""
@@ -232,13 +268,14 @@ class Controller:
             self._act(time, "alarm", f"its fault is known: {kind}", joint=joint)
             self._brake(time, joint, f"its fault: {kind}")
             self._true[self.arm.joint_index(joint)] = true
-            self._settled = time
+            self._settled = np.inf
 
     def feel(self, time: float, told: Array, pose: Array) -> None:
         """A measured pose of the tool (4, 4): after braking it tells whether the joint's sensor can be believed."""
-        if not (np.isfinite(self._settled) and time > self._settled - SAMPLES / 100 and len(self._poses) < SAMPLES):
+        self._seen = True
+        if not self._waits(time) or time <= self._settled - SAMPLES / 100 or len(self._poses) == SAMPLES:
             return
-        self._poses.append((told.copy(), pose))
+        self._poses.append((self.believed(told).copy(), pose))
         if len(self._poses) == SAMPLES:
             self._measure(time)
 
@@ -252,26 +289,29 @@ class Controller:
         self._act(time, "stop", why)
 
     def _at_once(self, time: float, joint: str, behind: float, v: float, wanted: float) -> None:
-        assert self._tracking is not None
-        y = abs(behind) / self._tracking[self.arm.joint_index(joint)]
+        assert self._bounds is not None
+        y = abs(behind) / self._bounds.tracking[self.arm.joint_index(joint)]
         if abs(v) < STILL and y > BEHIND:
             self._brake(time, joint, "it does not move")
         elif y > FAR_OFF and abs(v - wanted) > FASTER and abs(v) > RUNS:
             self._brake(time, joint, "it runs away")
-        elif self.pace == 1.0:
+        elif self.pace > SLOW:
             self.pace = SLOW
             self._act(time, "slow", "its fault is not known yet", joint=joint)
 
     def _brake(self, time: float, joint: str, why: str) -> None:
         j = self.arm.joint_index(joint)
         self._brakes.brake(joint)
-        self.law.mask[j], self.pace, self._decided = 0.0, 1.0, True
-        self._settled, self._poses = time + SETTLED + SAMPLES / 100, []
+        self.law.mask[j], self.pace, self._named, self._braked = 0.0, self._usual, joint, j
+        self._planned, self._may_plan = None, self._plans
+        if self._bounds is not None:
+            self._most = calibrated(self.arm, self._bounds)
+        self._settled, self._poses = time + SETTLED + (SAMPLES / 100 if self._seen else 0.0), []
         self._act(time, "brake", why, joint=joint)
 
     def _measure(self, time: float) -> None:
         """Where a braked joint is by the tool's pose, ``b = sum J_i' c / sum J_i' J_i``; metres and radians weighted alike."""
-        (j,) = np.flatnonzero(self.law.mask == 0)[-1:]
+        j = self._braked
         rows = np.array([q for q, _ in self._poses])
         measured = np.array([pose for _, pose in self._poses])
         for _ in range(3):
@@ -281,17 +321,17 @@ class Controller:
             rows[:, j] += (c * along).sum() / max(float((along**2).sum()), 1e-12)
         off = float(np.mean([row[j] - q[j] for row, (q, _) in zip(rows, self._poses, strict=True)]))
         if abs(off) > SLACK:
-            self._true[int(j)] = float(rows[:, j].mean())  # it stands, whatever its sensor does
-            factor, unit = self.arm.joints[int(j)].shown
+            self._true[j] = float(rows[:, j].mean())  # it stands, whatever its sensor does
+            factor, unit = self.arm.joints[j].shown
             why = f"by the tool's pose it is {factor * off:.3g} {unit} off what its sensor says"
-            self._act(time, "measure", why, joint=self.arm.joint_names[int(j)])
+            self._act(time, "measure", why, joint=self.arm.joint_names[j])
 
     def _end_of_law(self, time: float, q: Array) -> Array:
         """The law commands nothing more, or has no answer: at the target, or elsewhere."""
         left = self.degraded
         assert left is not None
-        self._plans = False  # once
-        found = planned(self._made_for, q, self.law.pose, left, time=time)
+        self._may_plan = False
+        found = planned(self._made_for, q, self.law.pose, left)
         if isinstance(found, str):
             tried = self._tried(time, q)
             if tried is None:
@@ -299,8 +339,8 @@ class Controller:
                 return np.zeros(self.arm.n)
             found = tried
         self._act(time, "plan", f"the law ended elsewhere; a route of {found.waypoints} waypoints takes {found.duration:.3g} s")
-        self._planned = found
-        return found.rates(time, q)
+        self._planned, self._pace = found, 0.0
+        return np.zeros(self.arm.n)
 
     def _tried(self, time: float, q: Array) -> Planned | None:
         """A slow route for the braked joint too: at a stop, or slow, it looks as a joint does that drives nothing.
@@ -308,7 +348,8 @@ class Controller:
         It is not sent on the way that it was to go, if there is a route without. Nothing is lost: else the arm stops here.
         """
         braked = np.flatnonzero(self.law.mask == 0)
-        if self._react != "chain" or not self._doubted or len(braked) != 1 or int(braked[0]) in self._true:
+        alone = len(braked) == 1 and self._trial is None and int(braked[0]) not in self._true
+        if self._react != "chain" or not self._doubted or not alone:
             return None
         j, joint = int(braked[0]), self.arm.joint_names[int(braked[0])]
         ends = max(self.arm.lower[j], q[j] - 2 * np.pi), min(self.arm.upper[j], q[j] + 2 * np.pi)
@@ -317,12 +358,19 @@ class Controller:
             if not ends[0] <= low < high <= ends[1]:
                 continue
             left = Degraded(self.arm, ranges={j: (low, high)})
-            found = planned(self._made_for, q, self.law.pose, left, time=time, pace=TRIAL)
+            found = planned(self._made_for, q, self.law.pose, left)
             if not isinstance(found, str):
-                self._trial, self.law.mask[j], self.pace = j, 1.0, TRIAL
+                self._trial, self.law.mask[j], self.pace, self._usual = j, 1.0, TRIAL, TRIAL
+                self._lost, self._heard = 0.0, time
                 self._lower[j], self._upper[j] = low, high
                 self._brakes.release(joint)
                 why = "there is no route without it; slowly, as far as it follows"
                 self._act(time, "release", why, joint=joint)
                 return found
         return None
+
+
+def calibrated(arm: Arm, bounds: Bounds) -> Array:
+    """(n,) rates that bounds hold for, rad/s and m/s, within the limits; faster joints would alarm for no reason."""
+    limits = np.array([joint.velocity for joint in arm.joints])
+    return np.asarray(np.minimum(np.maximum(bounds.speed, LEAST), limits))

@@ -131,6 +131,7 @@ def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "upper": arm.upper,
         "largest_rate": [joint.velocity for joint in arm.joints],
         "largest_effort": [joint.effort for joint in arm.joints],
+        "calibrated_rate": controller.calibrated(arm, bounds),
         "tracking_bound": bounds.tracking,
     }
     values = {
@@ -147,6 +148,7 @@ def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "RAMP": controller.RAMP,
         "QUIET": controller.QUIET,
         "SETTLED": controller.SETTLED,
+        "LATER": controller.LATER,
         "SPARE": controller.SPARE,
         "SLACK": controller.SLACK,
         "NEAR": masked.NEAR,

@@ -65,16 +65,19 @@ def simulate_faults(
 
     * a joint that does not move while its reference goes on, or runs away, is braked 20 ms after the alarm and left out of
       the law; so is one that is found to be locked, free-swinging, with a faulty sensor, or to have a fault of an unknown
-      kind. The arm then waits for 0.15 s; if the tool is measured it finds out whether the joint is where its sensor says;
+      kind. The arm then waits for 0.05 s, and where the tool is measured for 0.1 s more: that tells whether the joint is where
+      its sensor says;
     * with a weak motor or more friction the arm goes on at half the speed; a joint whose motor can no longer carry
       1.2 times the arm's weight is braked;
     * where something pushes the arm it goes on at 0.3 of the speed, and after 1 s as before;
-    * where the law ends off the target, :func:`holdfast.recover` plans a route, once; planning takes no simulated time. If
-      it finds no route, but would find one with the braked joint, the brake is released, once, and the arm follows that route
-      slowly: a joint at a stop, or with a slow motor, looks like one that drives nothing. If the joint does not follow it is
-      braked again. Else the arm stops.
+    * where the law ends off the target, :func:`holdfast.recover` plans a route, once after each brake; planning takes no
+      simulated time. If it finds no route, but would find one with the braked joint, the brake is released, once, and the arm
+      follows that route slowly: a joint at a stop, or with a slow motor, looks like one that drives nothing. If the joint does
+      not follow it is braked again. Else the arm stops.
 
-    A brake stops its joint at once. One fault at a time is looked for.
+    A brake stops its joint at once. From then on that joint is left out of what the monitor looks at, and the others are
+    watched on: when a second one fails all of this follows once more, with what both have left. Between the brake and the end
+    of the wait nothing is watched.
 
     Args:
         law: The control law, with its arm, task, gain and speed limit. The arm needs inertial data.
@@ -117,9 +120,8 @@ def simulate_faults(
     made = Body() if body is None else body
     masked = MaskedLaw(law, target, centring=centring)
     robot = _Robot(law, start, made, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose)
-    tracking = None if monitor is None else monitor.bounds.tracking
-    rearm = (lambda: None) if monitor is None else monitor.rearm
-    controller = Controller(masked, law, tracking=tracking, brakes=robot.injector, rearm=rearm, react=how, plan=plan)
+    bounds = None if monitor is None else monitor.bounds
+    controller = Controller(masked, law, bounds=bounds, brakes=robot.injector, watch=monitor, react=how, plan=plan)
     outcome = _drive(robot, controller, masked, monitor if how in ("stop", "chain") else None, how, time_limit)
     places = np.full(law.arm.n, np.nan)
     for event, place in robot.began.items():
@@ -134,7 +136,7 @@ def simulate_faults(
         events=robot.injector.events,
         places=places,
         actions=tuple(controller.actions),
-        verdict=None if monitor is None or how in ("none", "known") else monitor.verdict,
+        verdicts=tuple(controller.verdicts),
         degraded=controller.degraded,
         outcome=outcome,
         **robot.record(),
@@ -191,13 +193,13 @@ class _Robot:
             return told, None
         return told, self.body.measured(self.arm.forward_kinematics(true[None]), self.rng)[0]
 
-    def move(self, told: Array, rates: Array, mask: Array) -> Array:
-        """One cycle with commanded rates; the torque of the motors (n,) as it is recorded."""
-        ahead = np.minimum(np.maximum(self.reference + self.dt * rates, told - self.lead), told + self.lead)
-        inside = np.clip(ahead, np.minimum(self.arm.lower, told), np.maximum(self.arm.upper, told))
-        self.reference = np.where(mask > 0, inside, told)
-        self.gravity = self.gravity_of(told)
-        drive = self.stiffness * (self.reference - told) + self.damping * (rates - self._added) + self.gravity
+    def move(self, q: Array, rates: Array, mask: Array) -> Array:
+        """One cycle with commanded rates, the joints believed at (n,); the torque of the motors (n,) as it is recorded."""
+        ahead = np.minimum(np.maximum(self.reference + self.dt * rates, q - self.lead), q + self.lead)
+        inside = np.clip(ahead, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
+        self.reference = np.where(mask > 0, inside, q)
+        self.gravity = self.gravity_of(q)
+        drive = self.stiffness * (self.reference - q) + self.damping * (rates - self._added) + self.gravity
         torque = np.clip(drive - self.damping * self.data.qvel, -self.effort, self.effort)
         self.data.ctrl[:] = drive
         self.injector.before_step(self.injector.time)
@@ -257,11 +259,12 @@ def _drive(robot: _Robot, controller: Controller, law: MaskedLaw, monitor: Monit
         if pose is not None:
             controller.feel(time, told, pose)
         rates = controller.rates(time, told)
-        torque = robot.move(told, rates, law.mask)
+        q = controller.believed(told)
+        torque = robot.move(q, rates, law.mask)
         robot.note(true, told, torque, pose, off)
-        if monitor is not None and not controller.reacted:
-            verdict = monitor.step(told, robot.reference, torque, pose=pose)
-            behind = robot.reference - told
+        if monitor is not None and not controller.over:
+            verdict = monitor.step(q, robot.reference, torque, pose=pose)
+            behind = robot.reference - q
             controller.hear(time, verdict, behind=behind, v=robot.v, wanted=rates, gravity=robot.gravity)
         speed = float(np.abs(robot.data.qvel).max())
         if not speed < BURST:

@@ -66,7 +66,7 @@ class MaskedLaw:
         self.mask, self.miss, self.turn = np.ones(n), np.inf, np.inf
         bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
         self._middle = np.where(bounded, (np.where(bounded, arm.lower, 0) + np.where(bounded, arm.upper, 0)) / 2, 0.0)
-        self._pull, self._n = np.where(bounded, centring, 0.0), n
+        self._pull, self._n, self._rows = np.where(bounded, centring, 0.0), n, law.task.m
         self._lower, self._upper = arm.lower + NEAR, arm.upper - NEAR
         self._run = masked_kernel(law).single()
         self._row = np.concatenate([np.zeros(n), self.pose[:3, 3], self.pose[:3, :3].ravel(), np.ones(n), np.zeros(n)])
@@ -75,7 +75,9 @@ class MaskedLaw:
         """Commanded rates (n,) at a configuration (n,), rad/s and m/s. A joint at its limit is not told to pass it."""
         n, row = self._n, self._row
         follow = self.mask if mask is None else mask
-        row[:n], row[n + 12 : 2 * n + 12], row[2 * n + 12 :] = q, follow, self._pull * (self._middle - q)
+        # Where no redundancy is left nothing is open: damped, the pull would only hold the tool off its target.
+        pull = self._pull * (self._middle - q) if follow.sum() > self._rows else 0.0
+        row[:n], row[n + 12 : 2 * n + 12], row[2 * n + 12 :] = q, follow, pull
         out = self._run(row)
         rates = out[:n].copy()
         if mask is None:

@@ -80,7 +80,7 @@ class FaultRun(Result):
         events: The faults of the episode.
         places: (n,) where each joint was when its first fault began, rad and m; NaN where none did.
         actions: What the controller did, in order of time.
-        verdict: Of the monitor; None without one.
+        verdicts: What each alarm came to.
         degraded: What is left of the arm: joints that were braked, with where they are; None if none was.
         outcome: ``reached``: within 5 mm and 1 deg of its target for 0.2 s; ``stopped``, ``missed`` or ``unstable``.
         time: (T,) s.
@@ -102,7 +102,7 @@ class FaultRun(Result):
     events: FaultEvents
     places: Array
     actions: tuple[Action, ...]
-    verdict: Verdict | None
+    verdicts: tuple[Verdict, ...]
     degraded: Degraded | None
     outcome: Ended
     time: Array

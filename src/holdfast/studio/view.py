@@ -99,6 +99,7 @@ class View:
             "laws": state.target is not None and not self._arrived(),
             "region": not isinstance(reading.bars, str),
             "watch": machine.swings and not state.failed,
+            "inject": state.show == "watch" and self.watched is not None and not self._busy,
             "clear": beside or self._busy,
             "tour": True,
             "next": not self._busy,
@@ -141,6 +142,13 @@ class View:
             self._refresh()
         else:
             self._place(q)
+
+    def _on_time(self, value: float) -> None:
+        self.player.pause()  # who takes the slider stops what plays
+        self.player.seek(value)
+
+    def _on_play(self, _: Any) -> None:
+        self.player.play()
 
     def _on_labels(self, value: bool) -> None:
         self.stage.show_labels(value)

@@ -1,7 +1,11 @@
-"""A joint fails while the arm moves, and a monitor that was calibrated on the healthy arm says which: computed, then drawn."""
+"""A joint fails while the arm moves, and a monitor that was calibrated on the healthy arm says which: computed, then drawn.
+
+The page has that monitor too, and runs it over what the robot told so far: what is said of the alarm comes from there.
+"""
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -11,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.poses import pose_of
+from holdfast.arm.poses import pose_of, rotations_of_quaternions
 from holdfast.diagnosis.decision import AGAIN, CLASSIFY, ISOLATE
 from holdfast.errors import InputError
 from holdfast.studio.motions import SAMPLES, Motion
@@ -20,6 +24,8 @@ from holdfast.studio.state import State
 
 if TYPE_CHECKING:
     from holdfast.diagnosis.answer import Diagnosis
+    from holdfast.diagnosis.bounds import Bounds
+    from holdfast.faults.log import Log
     from holdfast.reaction.run import FaultRun
 
 Array = NDArray[np.float64]
@@ -58,6 +64,7 @@ class Watched:
         named: When, s; infinite if none was.
         said: What was known, each with the time from which on, s.
         untold: What could not be told.
+        record: HTML that shows nothing: what the robot told, and the monitor as a module of JavaScript.
     """
 
     motion: Motion
@@ -69,6 +76,10 @@ class Watched:
     named: float
     said: tuple[tuple[float, str], ...]
     untold: tuple[str, ...]
+    record: str
+
+
+_known: dict[object, Bounds] = {}  # of the last question: to inject another fault takes one motion, not five
 
 
 def watched(machine: Machine, state: State, progress: Callable[[int, int], None]) -> Watched:
@@ -95,13 +106,17 @@ def watched(machine: Machine, state: State, progress: Callable[[int, int], None]
     there, here = pose_of(state.target[:3], state.target[3:]), machine.hand(q)
     law = hf.control.by_name(state.laws[0], arm, task=machine.task, gain=GAIN, speed_limit=SPEED)
     body, start, logs = hf.Body(), q, list[hf.faults.Log]()
-    for k in range(HEALTHY):
+    question = (arm.fingerprint, machine.task.name, state.laws[0], state.q, state.target)
+    for k in range(HEALTHY if question not in _known else 0):
         progress(k, HEALTHY + 1)
         goal = _rows(machine, here if k % 2 else there)
         run = hf.simulate_faults(law, start, goal, body=body, seed=k, time_limit=LONGEST)
         logs, start = [*logs, run.log()], np.asarray(run.q[-1])
-    dry, viscous = np.full(arm.n, body.coulomb), np.full(arm.n, body.viscous)
-    monitor = hf.diagnosis.Monitor(arm, hf.diagnosis.calibrate(arm, logs, factor=FACTOR, coulomb=dry, viscous=viscous))
+    if logs:
+        dry, viscous = np.full(arm.n, body.coulomb), np.full(arm.n, body.viscous)
+        _known.clear()
+        _known[question] = hf.diagnosis.calibrate(arm, logs, factor=FACTOR, coulomb=dry, viscous=viscous)
+    monitor = hf.diagnosis.Monitor(arm, _known[question])
     progress(HEALTHY, HEALTHY + 1)
     faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=KINDS[kind])]  # type: ignore[arg-type]
     run = hf.simulate_faults(law, q, _rows(machine, there), faults=faults, body=body, seed=HEALTHY, time_limit=LONGEST)
@@ -114,12 +129,16 @@ def _rows(machine: Machine, pose: Array) -> Array:
 
 
 def _told(run: FaultRun, found: Diagnosis, onset: float, names: tuple[str, ...]) -> Watched:
+    import holdfast as hf
+
     verdict, scaled, every = found.verdict, found.scaled, max(1, len(run.time) // POINTS)
     said: list[tuple[float, str]] = []
+    alarm = float(verdict.time) if verdict.alarm else np.inf
+    named = alarm + (AGAIN if verdict.kind == "sensor" else ISOLATE)
     if verdict.alarm:
-        alarm, *more = [line for line in found.describe() if line.startswith("alarm at")] + list(verdict.evidence)
-        known = verdict.time + (AGAIN if verdict.kind == "sensor" else ISOLATE + CLASSIFY)
-        said = [(known, text) for text in (alarm.partition(": ")[2], *more)]
+        first, *more = [line for line in found.describe() if line.startswith("alarm at")] + list(verdict.evidence)
+        known = named if verdict.kind == "sensor" else named + CLASSIFY
+        said = [(known, text) for text in (first.partition(": ")[2], *more)]
     untold = [f"did not move enough to tell: {', '.join(found.untold)}"] if found.untold else []
     if verdict.alarm and len(verdict.candidates) > 1:
         untold.append(f"not told apart: {', '.join(verdict.candidates)}")
@@ -134,12 +153,28 @@ def _told(run: FaultRun, found: Diagnosis, onset: float, names: tuple[str, ...])
         time=run.time[::every],
         residuals=residuals,
         onset=onset,
-        alarm=float(verdict.time) if verdict.alarm else np.inf,
+        alarm=alarm,
         joint=names.index(verdict.joint) if verdict.joint in names else None,
-        named=np.inf if verdict.joint is None else verdict.time + (AGAIN if verdict.kind == "sensor" else ISOLATE),
+        named=np.inf if verdict.joint is None else named,
         said=tuple(said),
         untold=tuple(untold),
+        record=_record(found.log, hf.diagnosis.javascript_of(run.arm, found.bounds), onset),
     )
+
+
+def _record(log: Log, monitor: str, onset: float) -> str:
+    """Rows of joints, references and torques; the poses that were measured, (4, 4) by rows; the monitor; for the page."""
+    assert log.tau is not None
+    assert log.x is not None
+    assert log.quat is not None
+    seen = np.flatnonzero(np.isfinite(log.x[:, 0]))
+    poses = np.tile(np.eye(4), (len(seen), 1, 1))
+    poses[:, :3, :3], poses[:, :3, 3] = rotations_of_quaternions(log.quat[seen]), log.x[seen]
+    numbers = (np.concatenate([log.q, log.q_ref, log.tau], axis=1), poses)
+    texts = (*(b64encode(part.tobytes()).decode() for part in numbers), monitor)
+    inside, every = "".join(f"<b>{escape(text)}</b>" for text in texts), int(np.diff(seen)[0])
+    begins = onset if np.isfinite(onset) else ""
+    return f'<div hidden class="hf-record" data-rate="{log.rate:g}" data-every="{every}" data-onset="{begins}">{inside}</div>'
 
 
 def _largest(values: Array, every: int) -> Array:
@@ -160,18 +195,11 @@ def watched_html(found: Watched, names: tuple[str, ...], now: float) -> str:
     now = now if now >= end else end * np.floor(now / end * STEPS) / STEPS  # or the page would be sent thirty times a second
     panels = [_panel(what, found, values, now, names) for what, values in found.residuals.items() if np.isfinite(values).any()]
     so_far = [text for time, text in found.said if time <= now]
-    head = "No alarm so far."
-    if now >= found.alarm:
-        told = names[found.joint] if found.joint is not None and now >= found.named else "not known yet"
-        head = f"Alarm {1000 * (found.alarm - found.onset):.0f} ms after the fault; the joint: {told}."
-        if found.onset > found.alarm:
-            head = f"Alarm at {found.alarm:.3f} s, before any fault; the joint: {told}."
     lines = [*so_far, *(found.untold if now >= end * (1 - 1e-9) else ())]
     items = "".join(f"<li>{escape(line)}</li>" for line in lines)
-    alarmed = " data-alarm" if now >= found.alarm else ""
     key = "Each line is a joint; dashes: its bound, purple: the fault begins, orange: the alarm."
     return (
-        f'<div class="hf-watch"{alarmed}><strong>{escape(head)}</strong><div class="hf-soft">{key}</div>'
+        f'<div class="hf-watch"><strong class="hf-head" data-now="{now:.6g}"></strong><div class="hf-soft">{key}</div>'
         f"{''.join(panels)}<ul>{items}</ul></div>"
     )
 

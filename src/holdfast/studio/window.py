@@ -280,15 +280,22 @@ class Window(View):
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
         )
 
-    def _on_watch(self, _: Any) -> None:
+    def _on_inject(self, _: Any) -> None:  # up to now the motion is the same, whatever the fault
+        self.state = replace(self.state, fault=(*self.state.fault[:2], self.state.time))
+        self._on_watch(self.state.time)
+
+    def _on_watch(self, now: float | None) -> None:
         if self.state.target is None:
             self._on_target(None)
+        self.state = replace(self.state, time=now or 0.0)
 
         def show(found: Watched) -> None:
             self.watched = found
             self._show_motions(
                 [found.motion], (ORANGE,), "A joint fails while the arm moves; the monitor sees what a robot would."
             )
+            if now:
+                self.player.play()
 
         self._start_work("Simulating healthy motions, and one with the fault", "watch", show)
 
@@ -372,13 +379,6 @@ class Window(View):
     def _show_motions(self, motions: list[Motion], colors: tuple[Any, ...], text: str) -> None:
         self.panel.say(text)
         self.player.show(motions, colors, self.state.time)
-
-    def _on_time(self, value: float) -> None:
-        self.player.pause()  # who takes the slider stops what plays
-        self.player.seek(value)
-
-    def _on_play(self, _: Any) -> None:
-        self.player.play()
 
     # ---- the tour --------------------------------------------------------------------------------------------------
 

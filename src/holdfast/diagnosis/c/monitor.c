@@ -39,16 +39,19 @@ static void observe(NAME_state *s, const double *q, const double *torque) {
 #endif
 }
 
+static void begin_anew(NAME_state *s) {
+    int k;
+    s->begun = 0;
+    s->anew = CONST_LONGEST + 1;
+    for (k = 0; k < N; ++k) s->r[k] = 0;
+}
+
 /* Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled. */
 static void bridge(NAME_state *s, const double *q, const double *torque) {
     double start[N], between[N], felt[N];
     long k;
     int i;
-    if (s->begun && s->missed > CONST_LONGEST) {
-        s->begun = 0;
-        s->anew = CONST_LONGEST + 1;
-        for (i = 0; i < N; ++i) s->r[i] = 0;
-    }
+    if (s->begun && s->missed > CONST_LONGEST) begin_anew(s);
     for (i = 0; i < N; ++i) {
         start[i] = s->q[i];
         felt[i] = s->known == s->missed && s->known > 0 ? s->felt[i] / (double)s->known : s->torque[i];
@@ -93,11 +96,11 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
 }
 
 /* Of `rows`, in squares of deviations, what a force at the far end of link `last` cannot explain; end: from the tool there. */
-static double left_by_force(const double *rows, const double *jacobian, const double *end, int last) {
+static double left_by_force(const NAME_state *s, const double *rows, const double *jacobian, const double *end, int last) {
     double column[3][N], rest[N], size, before, along, left = 0;
     int i, j, k;
     for (k = 0; k < N; ++k) {
-        const double *v = jacobian + 6 * k, *w = v + 3, scale = k > last ? 0 : 1 / (CONST_SCALE * change_bound[k]);
+        const double *v = jacobian + 6 * k, *w = v + 3, scale = k > last || s->out[k] ? 0 : 1 / (CONST_SCALE * change_bound[k]);
         rest[k] = rows[k];
         for (i = 0; i < 3; ++i)
             column[i][k] = scale * (v[i] + w[(i + 1) % 3] * end[(i + 2) % 3] - w[(i + 2) % 3] * end[(i + 1) % 3]);
@@ -124,11 +127,11 @@ static double better_by_force(const NAME_state *s, const double *q) {
     int k;
     tool(q, there, jacobian, ends);
     for (k = 0; k < N; ++k) {
-        rows[k] = (s->residual[k] / CONST_SPLIT - s->level[k]) / (CONST_SCALE * change_bound[k]);
+        rows[k] = s->out[k] ? 0 : (s->residual[k] / CONST_SPLIT - s->level[k]) / (CONST_SCALE * change_bound[k]);
         whole += rows[k] * rows[k];
         most = larger(most, rows[k] * rows[k]);
     }
-    for (k = 0; k < N; ++k) least = smaller(least, left_by_force(rows, jacobian, ends + 3 * k, k));
+    for (k = 0; k < N; ++k) least = smaller(least, left_by_force(s, rows, jacobian, ends + 3 * k, k));
     return whole - most - least;
 }
 
@@ -248,7 +251,10 @@ static void decide(NAME_state *s) {
 
 void NAME_rearm(NAME_state *s) {
     int k;
-    for (k = 0; k < N; ++k) s->over_z[k] = s->over_y[k] = s->size[k] = s->residual[k] = s->left[k] = 0;
+    for (k = 0; k < N; ++k) {
+        s->over_z[k] = s->over_y[k] = s->size[k] = s->residual[k] = 0;
+        s->left[k] = s->out[k] ? HUGE_VAL : 0;
+    }
     s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
     s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->verdict.time = 0;
     s->count = s->poses = s->some = 0;
@@ -260,6 +266,16 @@ void NAME_rearm(NAME_state *s) {
 void NAME_init(NAME_state *s) {
     static const NAME_state zero;
     *s = zero;
+    NAME_rearm(s);
+}
+
+void NAME_leave_out(NAME_state *s, int joint) {
+    int i, k;
+    s->out[joint] = 1;
+    s->seen = 0;
+    for (i = 0; i <= GUARD_LATE; ++i)
+        for (k = 0; k < N; ++k) s->past[i][k] = HUGE_VAL;
+    begin_anew(s);
     NAME_rearm(s);
 }
 
@@ -293,8 +309,8 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
     gated = !torque && s->cycle - s->fast < CONST_CALM;
     for (k = 0; k < N; ++k) {
         s->reference[k] = reference[k];
-        z[k] = fabs(s->r[k]) / torque_bound[k];
-        y[k] = fabs(reference[k] - q[k]) / tracking_bound[k];
+        z[k] = s->out[k] ? 0 : fabs(s->r[k]) / torque_bound[k];
+        y[k] = s->out[k] ? 0 : fabs(reference[k] - q[k]) / tracking_bound[k];
         s->over_z[k] = larger(0, s->over_z[k] + (z[k] - 1) * DT);
         if (!gated) s->over_y[k] = larger(0, s->over_y[k] + (y[k] - 1) * DT);
         over_z = larger(over_z, s->over_z[k]);

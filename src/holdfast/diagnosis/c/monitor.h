@@ -34,7 +34,7 @@ typedef struct {
     double v[COUNT], r[COUNT], level[COUNT];
     double over_z[COUNT], over_y[COUNT], over_w;
     long cycle, fast, seen, seen_at, count, poses, some, missed, known;
-    int begun, anew, referred, alarmed, torques, tool, suspect, joint, told;
+    int begun, anew, referred, alarmed, torques, tool, suspect, joint, told, out[COUNT];
     double past[GUARD_LATE + 1][COUNT], felt[COUNT];
     double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
     double size[COUNT], residual[COUNT], left[COUNT], gap;
@@ -49,6 +49,9 @@ void NAME_init(NAME_state *state);
 
 /* Forget the alarm and what led to it, while the arm goes on. */
 void NAME_rearm(NAME_state *state);
+
+/* Watch on without a joint that was stopped, until NAME_init: the alarm is forgotten, and what follows the motion begins anew. */
+void NAME_leave_out(NAME_state *state, int joint);
 
 /* So many cycles went by without a sample, as if each had been passed over. */
 void NAME_skip(NAME_state *state, long cycles);

@@ -18,7 +18,6 @@ SAFETY = "Everything here is simulated. The monitor and the reaction are no cert
 
 def to_dict(run: FaultRun) -> dict[str, Any]:
     """The faults, the actions and how it ended."""
-    verdict = run.verdict
     return {
         **run.arm.entry(),
         "outcome": run.outcome,
@@ -30,8 +29,7 @@ def to_dict(run: FaultRun) -> dict[str, Any]:
         "faults": [event.stored() for event in run.events],
         "id": run.events.id,
         "noticed_s": run.noticed,
-        "joint": verdict and verdict.joint,
-        "kind": verdict.kind if verdict is not None and verdict.alarm else None,
+        "alarms": [{"time_s": v.time, "joint": v.joint, "kind": v.kind} for v in run.verdicts],
         "actions": [{"time_s": a.time, "what": a.what, "joint": a.joint, "why": a.why} for a in run.actions],
         "braked": {} if run.degraded is None else dict(run.degraded.locked),
         "q_final": dict(zip(run.arm.joint_names, run.q[-1], strict=True)),

@@ -24,6 +24,7 @@ constexpr double quiet_for = CONST_QUIET, settle = CONST_SETTLED; /* s */
 constexpr double spare = CONST_SPARE; /* a weak motor must carry gravity so many times */
 constexpr double slack = CONST_SLACK, near = CONST_NEAR; /* rad or m */
 constexpr int poses = CONST_SAMPLES;
+constexpr double poses_later = CONST_LATER; /* s */
 constexpr double leak = CONST_LEAK; /* 1/s: servos of rates do not hold a place, so the reference forgets */
 constexpr double off_period = 0.5; /* of a cycle: the monitor coasts */
 
@@ -82,12 +83,14 @@ Return TolerantController::on_activate() {
     mask_.fill(1);
     commanded_.fill(0);
     twist_.fill(0);
-    posed_ = seen_ = decided_ = over_ = lost_ = false;
+    status_.place.fill(not_known);
+    posed_ = seen_ = over_ = lost_ = false;
     elapsed_ = 1 / rate; /* the first cycle is one */
     pace_ = place_ = error_ = 0;
-    aim_ = 1;
+    aim_ = usual_ = 1;
     alarm_ = quiet_ = settled_ = never;
     samples_ = 0;
+    named_ = -1;
     active_ = true;
     become(Mode::running, "no fault seen");
     return Return::ok;
@@ -124,6 +127,9 @@ Return TolerantController::update_and_write_commands(double /*time*/, double per
         write(commanded_);
         return Return::ok;
     }
+    const Joints told = q;
+    for (int k = 0; k < joints; ++k)
+        if (finite(status_.place[k])) q[k] = status_.place[k];
     /* What was commanded held since the last cycle. */
     for (int k = 0; k < joints; ++k) {
         double &reference = status_.reference[k];
@@ -135,6 +141,7 @@ Return TolerantController::update_and_write_commands(double /*time*/, double per
         else if (status_.joint >= 0) become(Mode::degraded, "positions are back");
         else become(aim_ < 1 ? Mode::slowed : Mode::running, "positions are back");
     }
+    if (posed_ && waits()) measure(q, told);
     watch(q, effort, passed);
     command(q, passed);
     write(commanded_);
@@ -164,10 +171,8 @@ void TolerantController::watch(const Joints &q, const Joints &effort, double per
     const bool posed = posed_, late = std::fabs(period * rate - 1) > off_period;
     posed_ = false;
     elapsed_ += period;
-    if (decided_ || over_) {
-        if (posed) measure(q);
-        return;
-    }
+    if (over_ || waits()) return;
+    if (named_ >= 0 && mask_[named_] == 0) go_on();
     if (late || elapsed_ * rate < off_period) {
         status_.coasted += 1;
         return;
@@ -176,21 +181,20 @@ void TolerantController::watch(const Joints &q, const Joints &effort, double per
     if (cycles > 1) NAME_monitor_skip(&monitor_, cycles - 1);
     elapsed_ = 0;
     status_.watching = true;
+    NAME_monitor_verdict verdict{};
     NAME_monitor_step(&monitor_, q.data(), status_.reference.data(), with_effort_ ? effort.data() : nullptr,
-                      posed ? pose_.data() : nullptr, &status_.verdict);
-    if (options_.reacts) hear(q);
+                      posed ? pose_.data() : nullptr, &verdict);
+    if (verdict.alarm) status_.verdict = verdict;
+    if (options_.reacts) hear(q, verdict);
 }
 
 /* ---- what it does about it ----------------------------------------------------------------------------------------- */
 
-void TolerantController::hear(const Joints &q) {
-    const NAME_monitor_verdict &verdict = status_.verdict;
+void TolerantController::hear(const Joints &q, const NAME_monitor_verdict &verdict) {
     const double time = status_.time;
     if (time > quiet_) {
-        aim_ = 1;
-        alarm_ = quiet_ = never;
-        NAME_monitor_rearm(&monitor_);
-        become(Mode::running, "what pushed the arm is gone");
+        go_on();
+        become(status_.joint < 0 ? Mode::running : Mode::degraded, "what pushed the arm is gone");
         return;
     }
     if (!verdict.alarm) return;
@@ -211,12 +215,13 @@ void TolerantController::hear(const Joints &q) {
     case GUARD_MONITOR_WEAK:
     case GUARD_MONITOR_FRICTION:
     case GUARD_MONITOR_SLUGGISH:
-        if (aim_ == half_pace) {
-            decided_ = time > alarm_ + final_after;
+        if (named_ == i) {
+            if (time > alarm_ + final_after) go_on();
         } else if (verdict.loss >= 0 && (1 - verdict.loss) * largest_effort[i] < spare * std::fabs(monitor_.gravity[i])) {
             leave_out(i, "what its motor still gives does not carry the arm");
         } else {
-            slow(half_pace, "a joint moves against more than it should");
+            named_ = i;
+            slow(std::min(usual_, half_pace), "a joint moves against more than it should");
         }
         break;
     case GUARD_MONITOR_LOCKED:
@@ -244,13 +249,13 @@ void TolerantController::at_once(int i, const Joints &q) {
     if (options_.brakes && std::fabs(v) < still && y > behind_bounds) leave_out(i, "a joint does not move");
     else if (options_.brakes && y > far_bounds && std::fabs(v - commanded_[i]) > faster && std::fabs(v) > runs)
         leave_out(i, "a joint runs away");
-    else if (aim_ == 1)
+    else if (aim_ > slow_pace)
         slow(slow_pace, "a joint failed; how is not known yet");
 }
 
 void TolerantController::slow(double pace, const char *why) {
     aim_ = pace;
-    become(Mode::slowed, why);
+    become(status_.joint < 0 ? Mode::slowed : Mode::degraded, why);
 }
 
 void TolerantController::stop(const char *why) {
@@ -263,34 +268,51 @@ void TolerantController::leave_out(int i, const char *why) {
     mask_[i] = 0;
     status_.joint = i;
     status_.brake[i] = true;
-    decided_ = true;
-    aim_ = 1;
+    named_ = i;
+    aim_ = usual_;
     samples_ = 0;
     place_ = error_ = 0;
     /* It waits until the tool's pose has told where that joint is. */
-    settled_ = seen_ ? status_.time + settle + poses / 100.0 : never;
+    settled_ = status_.time + settle + (seen_ ? poses / 100.0 : 0);
     become(Mode::degraded, why);
 }
 
-void TolerantController::measure(const Joints &q) {
-    if (settled_ == never || samples_ == poses || status_.time <= settled_ - poses / 100.0) return;
+bool TolerantController::waits() const {
+    const double later = samples_ > 0 && samples_ < poses ? poses_later : 0;
+    return settled_ != never && status_.time <= settled_ + later;
+}
+
+/* Watch on: without the joint that was named, and at the pace that what has failed leaves. */
+void TolerantController::go_on() {
+    if (named_ < 0) NAME_monitor_rearm(&monitor_);
+    else {
+        NAME_monitor_leave_out(&monitor_, named_);
+        if (mask_[named_] > 0) usual_ = std::min(usual_, half_pace);
+    }
+    elapsed_ = std::min(elapsed_, 1 / rate); /* nothing was skipped: it begins anew */
+    aim_ = usual_;
+    alarm_ = quiet_ = never;
+    named_ = -1;
+}
+
+void TolerantController::measure(const Joints &q, const Joints &told) {
+    if (samples_ == poses || status_.time <= settled_ - poses / 100.0) return;
     const int i = status_.joint;
     const double place = NAME_monitor_joint_by_tool(q.data(), pose_.data(), i);
     place_ += place / poses; /* it stands, whatever its sensor does */
-    error_ += (place - q[i]) / poses;
+    error_ += (place - told[i]) / poses;
     samples_ += 1;
     if (samples_ == poses && std::fabs(error_) > slack) {
-        status_.place = place_;
+        status_.place[i] = place_;
         become(Mode::degraded, "a joint is not where its sensor says, by the tool's pose");
     }
 }
 
-void TolerantController::command(const Joints &told, double period) {
+void TolerantController::command(const Joints &q, double period) {
     const double dt = std::min(period, 2 / rate); /* after a stall the rates do not jump */
-    Joints q = told, follow = mask_, wanted{};
+    Joints follow = mask_, wanted{};
     std::array<double, TASK_ROWS> v{};
-    if (finite(status_.place)) q[status_.joint] = status_.place;
-    if (settled_ != never && status_.time <= settled_) pace_ = 0;
+    if (waits()) pace_ = 0;
     else pace_ += std::min(std::max(aim_ - pace_, -ramp * dt), ramp * dt);
     for (int r = 0; r < TASK_ROWS; ++r)
         for (int c = 0; c < 6; ++c) v[r] += task[r][c] * (finite(twist_[c]) ? twist_[c] : 0);
@@ -305,7 +327,10 @@ void TolerantController::command(const Joints &told, double period) {
             }
     }
     double over = 1;
-    for (int k = 0; k < joints; ++k) over = std::max(over, std::fabs(pace_ * wanted[k]) / largest_rate[k]);
+    for (int k = 0; k < joints; ++k) {
+        const double most = status_.joint < 0 ? largest_rate[k] : calibrated_rate[k]; /* faster, it alarms for no reason */
+        over = std::max(over, std::fabs(pace_ * wanted[k]) / most);
+    }
     for (int k = 0; k < joints; ++k) {
         const double change = options_.acceleration * dt;
         const double low = -std::sqrt(2 * options_.acceleration * std::max(q[k] - lower[k], 0.0));

@@ -19,7 +19,7 @@ using Joints = std::array<double, joints>;
 
 enum class Return { ok, error };
 
-/* stopped: all rates are 0, or on their way there. degraded: a joint is left out of the law. */
+/* stopped: all rates are 0, or on their way there. degraded: joints are left out of the law, also while what is left is slowed. */
 enum class Mode { inactive, running, slowed, degraded, stopped };
 
 const char *name_of(Mode mode);
@@ -41,10 +41,10 @@ struct Status {
     Mode mode = Mode::inactive;
     const char *why = "not active";
     long changes = 0;
-    NAME_monitor_verdict verdict{}; /* joint from 0, -1: none */
-    int joint = -1;                 /* left out of the law, from 0 */
-    double place = not_known;       /* of that joint by the tool's pose, rad or m, where its sensor is not believed */
-    std::array<bool, joints> brake{};
+    NAME_monitor_verdict verdict{}; /* of the last alarm; joint from 0, -1: none */
+    int joint = -1;                 /* left out of the law last, from 0 */
+    std::array<bool, joints> brake{}; /* all that are left out of the law */
+    Joints place{};                 /* where these are by the tool's pose, rad or m, where a sensor is not believed; else not_known */
     bool watching = false;          /* the monitor saw this cycle */
     long cycles = 0, coasted = 0;   /* since it was activated; cycles that the monitor did not see, for its time was off */
     double time = 0;                /* s, since it was activated */
@@ -52,7 +52,7 @@ struct Status {
 };
 
 /*
- * Moves the tool as it is told, watches the arm for joint faults, and goes on with the joints that are left.
+ * Moves the tool as it is told, watches the arm for joint faults, and goes on with the joints that are left, which it watches on.
  *
  * Its life is that of a chainable controller of ROS 2, and it needs nothing of ROS: configure, lend it the interfaces, activate,
  * and call update_and_write_commands in every cycle, after the twist was written to references(). That call allocates nothing,
@@ -97,12 +97,14 @@ private:
     void become(Mode mode, const char *why);
     bool read(Joints &q, Joints &effort) const;
     void watch(const Joints &q, const Joints &effort, double period);
-    void hear(const Joints &q);
+    void hear(const Joints &q, const NAME_monitor_verdict &verdict);
     void at_once(int joint, const Joints &q);
     void slow(double pace, const char *why);
     void stop(const char *why);
     void leave_out(int joint, const char *why);
-    void measure(const Joints &q);
+    void go_on();
+    void measure(const Joints &q, const Joints &told);
+    bool waits() const; /* until the tool's pose has told where the joint is that was left out */
     void command(const Joints &q, double period);
     void write(const Joints &rates);
 
@@ -113,11 +115,11 @@ private:
     std::array<double *, joints> velocity_{};
     std::array<double, 6> twist_{};
     std::array<double, 16> pose_{};
-    bool posed_ = false, seen_ = false, decided_ = false, over_ = false, lost_ = false;
+    bool posed_ = false, seen_ = false, over_ = false, lost_ = false;
     NAME_monitor_state monitor_{};
     Joints mask_{}, commanded_{};
-    double elapsed_ = 0, pace_ = 0, aim_ = 1, alarm_ = 0, quiet_ = 0, settled_ = 0, place_ = 0, error_ = 0;
-    int samples_ = 0;
+    double elapsed_ = 0, pace_ = 0, aim_ = 1, usual_ = 1, alarm_ = 0, quiet_ = 0, settled_ = 0, place_ = 0, error_ = 0;
+    int samples_ = 0, named_ = -1;
 };
 
 } /* namespace NAME */

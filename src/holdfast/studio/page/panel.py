@@ -143,7 +143,8 @@ class Panel:
         for handle in (kind, joint, onset):
             self._on(handle.on_update, "fault", lambda _: (_chosen(kind), _chosen(joint), float(onset.value)))
         self._button("Move, fail and watch", "watch")
-        self.watched = self.gui.add_html("", visible=False)
+        self._button("Inject the fault now", "inject")
+        self.watched, self.record = self.gui.add_html("", visible=False), self.gui.add_html("")
         self._button("Clear", "clear")
 
     def _region_tab(self, state: State) -> None:
@@ -195,6 +196,9 @@ class Panel:
         content = "" if found is None else watched_html(found, state.names, state.time)
         if self.watched.content != content:
             self.watched.content, self.watched.visible = content, content != ""
+        record = "" if found is None else found.record
+        if self.record.content != record:
+            self.record.content = record
 
     def read(self, reading: Reading, state: State) -> None:
         """The live numbers."""
