@@ -144,6 +144,34 @@ def test_a_pose_that_comes_late_and_numbers_that_do_not_come(panda, bounds, reco
         hf.diagnosis.Sensors(latency=-1)
 
 
+def test_gaps_in_a_record_are_nobodys_fault(panda, bounds):
+    """Filters begin anew after long ones, the answer says that nothing was looked at then, and a lock after them is noticed.
+
+    So says the loop, whose residual after them is the same; rows that are not there are as rows of NaN.
+    """
+    fault = [FaultEvent("locked", "panda_joint4", 11.8)]
+    log = hf.diagnosis.rehearse(panda, 12.0, seed=1, faults=fault, pose=False)
+    missing, long = np.zeros(len(log.t), dtype=bool), ((0.70, 0.76), (0.9, 1.4), (1.5, 11.5))
+    for start, end in ((0.5, 0.52), *long):
+        missing[round(1000 * start) : round(1000 * end)] = True
+    holes = {name: np.where(missing[:, None], np.nan, getattr(log, name)) for name in ("q", "tau")}
+    given = {name: getattr(log, name) for name in ("t", "q_ref", "q", "tau")}
+    monitor = hf.diagnosis.Monitor(panda, bounds)
+    for row in zip(holes["q"], log.q_ref, holes["tau"], strict=True):
+        told = monitor.step(*row)
+    for record in (Log(**{**given, **holes}), Log(**{name: value[~missing] for name, value in given.items()})):
+        found = hf.diagnosis.diagnose(panda, record, bounds)
+        assert (found.verdict.joint, found.verdict.time) == ("panda_joint4", pytest.approx(11.8, abs=0.05))
+        assert found.signals.torque[-1] == pytest.approx(monitor._r, abs=1e-9)
+        assert (told.time, told.joint, told.kind) == (
+            pytest.approx(found.verdict.time),
+            found.verdict.joint,
+            found.verdict.kind,
+        )
+        assert np.ravel(found.gaps) == pytest.approx(np.ravel(long), abs=2e-3)
+        assert "nothing was looked at for 10.56 s: there the record has no numbers of the joints" in found.describe()
+
+
 def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):
     """Without torques: a lock is seen while every reference is slow, and nothing is counted within 0.1 s of fast motion."""
     logs = [dataclasses.replace(log, tau=None, x=None, quat=None) for log in healthy]

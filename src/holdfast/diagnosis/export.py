@@ -21,7 +21,7 @@ from holdfast.control.c_functions import Function, commented, filled, written
 from holdfast.control.export import check_name, quoted, version
 from holdfast.diagnosis import decision, kinds
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.monitor import STALE
+from holdfast.diagnosis.gaps import STALE, cycles
 from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
@@ -157,8 +157,10 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "ALL": kinds.ALL,
         "AWAY": kinds.AWAY,
         "GROWN": kinds.GROWN,
+        "HELD": kinds.HELD,
     }
-    named = {name: str(decision.cycles(seconds, dt)) for name, seconds in times.items()}
+    named = {name: str(cycles(seconds, dt)) for name, seconds in times.items()}
+    named["HALF"] = str((int(named["LAST"]) - int(named["SPLIT"])) // 2)
     named |= {name: number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
     named_kinds = ", ".join(map(quoted, _KINDS))
