@@ -10,6 +10,7 @@ import pytest
 import holdfast as hf
 from cards import check_card
 from holdfast.arm.poses import pose_of
+from holdfast.diagnosis.kinds import Kinds
 from holdfast.errors import InputError
 from holdfast.faults import FaultEvent, Log
 
@@ -88,6 +89,40 @@ def test_pushes_on_links_are_nobodys_fault(panda, bounds):
         assert (said.kind, said.joint) == ("contact", None)
     with pytest.raises(InputError, match="pushes are of 1 records and seeds of 2; give one for each"):
         hf.diagnosis.rehearse_many(panda, 1.0, seeds=[1, 2], pushes=[[]])
+
+
+def test_a_push_that_one_joint_alone_feels(panda, bounds, healthy):
+    """Along its motion no fault of a joint that follows explains it; against its motion it cannot be told from friction."""
+    log = healthy[0]
+    way = np.sign(log.q[1600, 0] - log.q[1500, 0])
+    for sense, joint in ((1, None), (-1, "panda_joint1")):
+        tau = log.tau.copy()
+        tau[1500:, 0] -= sense * way * 4.5
+        said = hf.diagnosis.diagnose(panda, dataclasses.replace(log, tau=tau), bounds).verdict
+        assert 1.5 < said.time < 1.7
+        assert said.joint == joint
+        assert "contact" in said.candidates
+
+
+def named(torque, residual, *, behind=1e-3, coulomb=0.5):
+    """What is said of a joint that moves at 0.3 rad/s while its servo gives a torque, and that much is not explained."""
+    kinds = Kinds(0, coulomb=coulomb, bounds=(2.0, 0.01), largest=1.3, noise=2e-5, torques=True, half=50)
+    for k, (given, r) in enumerate(zip(torque.tolist(), residual.tolist(), strict=True)):
+        kinds.add(3e-4 * k - behind, 3e-4 * k, 1.0, (r, given, 0.0))
+    return kinds.named("rad", ())["kind"]
+
+
+def test_what_a_servo_holds_is_pushed():
+    """A motor that gives nothing lets its joint go: its servo asks for more and more, or is far behind."""
+    same, grows = np.full(100, 4.0), 4.0 + 1e-2 * np.arange(100.0) ** 2
+    assert named(-same, same) == "contact"
+    assert named(-grows, grows) == "limp"
+    assert named(-same, same, behind=0.02) == "limp"
+    assert named(-16 / grows, 16 / grows) == "contact"  # it is over
+    wave = 13 + 4 * np.sin(2 * np.pi / 25 * np.arange(100))
+    assert named(wave, -2 * same) == "contact"  # friction that grew by 16 times is not believed
+    assert named(wave, -2 * same, coulomb=1.0) == "friction"
+    assert named(wave, -2 * same, behind=0.02) == "friction"
 
 
 def test_nothing_seen_is_not_called_well(panda, bounds, healthy):

@@ -13,7 +13,7 @@ TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
 AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none
 SCALE = 0.25  # of its torque bound: a deviation of the residual
 GROWN = 10.0  # of dry friction: it is not believed to grow by more
-HELD = 0.1  # of the torque 50 ms before: a servo that holds its joint against a push changes its own by less
+HELD = 0.1  # of the residual 50 ms before: that of a steady push changes by less
 
 
 @dataclass(frozen=True)
@@ -85,15 +85,15 @@ class Kinds:
         self._asked, self._least = max(self._asked, abs(torque - gravity)), min(self._least, abs(gravity))
         self._rr, self._rt, self._rs = self._rr + r * r, self._rt + r * torque, self._rs + r * slip
         self._tt, self._ss, self._sum = self._tt + torque * torque, self._ss + slip * slip, self._sum + abs(torque)
-        self._latest = abs(torque)
+        self._latest = abs(r)
         if self._count <= self._half:
             self._middle = self._latest
 
     def named(self, unit: str, unless_seen: tuple[str, ...]) -> dict[str, Any]:
         """Kind, loss, candidates and evidence.
 
-        A joint that follows while its servo gives the same torque all the time is driven, and its torque is met by as much
-        from outside: a motor that gives next to nothing would let the joint go, and its servo would ask for ever more.
+        A joint that follows is driven. If its motor seems to give nothing, and what the motor is asked for stays the same or
+        is over, something pushed it: a motor that gives nothing lets its joint go, and its servo asks for more and more.
 
         Args:
             unit: Of the joint.
@@ -123,14 +123,16 @@ class Kinds:
             return verdict("locked", ("locked", *unless_seen))
         if not min(by_loss, by_drag) < 0.5 * self._rr:
             return verdict("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *unless_seen))
-        held = self._behind < self._bounds[1] and abs(self._latest - self._middle) < HELD * self._middle
+        follows = self._behind < self._bounds[1]
+        held = follows and abs(self._latest - self._middle) < HELD * self._middle
+        over = follows and self._latest < self._bounds[0]
         worse = (by_drag - by_loss) / (self._count * (SCALE * self._bounds[0]) ** 2)
         if abs(worse) < 1 and (drag <= GROWN * self._coulomb or self._coulomb == 0):
             alike = "a weak motor, more friction and a push" if held else "a weak motor and more friction"
             evidence.append(f"{alike} explain its torque alike")
             return verdict("sluggish", ("weak", "friction", *["contact"] * held), loss)
-        if held and (drag > GROWN * self._coulomb > 0 if worse < 0 else loss > ALL):
-            evidence.append("it follows while its servo gives a constant torque: something pushes it")
+        if (held and drag > GROWN * self._coulomb > 0) if worse < 0 else ((held or over) and loss > ALL):
+            evidence.append("it follows, and no fault of its own would let it: something pushed it")
             return verdict("contact", ("contact",))
         if worse < 0:
             return verdict("friction", ("friction",))

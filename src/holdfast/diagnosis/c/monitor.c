@@ -170,7 +170,7 @@ static void follow(NAME_state *s, const double *q, const double *reference, cons
         s->rs += r * slip;
         s->tt += low * low;
         s->ss += slip * slip;
-        s->latest = fabs(low);
+        s->latest = fabs(r);
         if (s->some <= CONST_HALF) s->middle = s->latest;
     }
 }
@@ -205,7 +205,7 @@ static void explain(NAME_state *s, double w, const double residual[6], const dou
 }
 
 static void decide(NAME_state *s) {
-    int i = s->joint, still, held;
+    int i = s->joint, still, follows, held;
     double travel, wanted, loss, drag, by_loss, by_drag, worse;
     if (s->count < CONST_SPLIT) return;
     if (s->suspect) {
@@ -231,7 +231,8 @@ static void decide(NAME_state *s) {
     drag = larger(0, -s->rs / larger(s->ss, 1e-12));
     by_loss = s->tt > 0 ? s->rr + 2 * loss * s->rt + loss * loss * s->tt : HUGE_VAL;
     by_drag = s->rr + 2 * drag * s->rs + drag * drag * s->ss;
-    held = s->behind < tracking_bound[i] && fabs(s->latest - s->middle) < CONST_HELD * s->middle;
+    follows = s->behind < tracking_bound[i];
+    held = follows && fabs(s->latest - s->middle) < CONST_HELD * s->middle;
     worse = (by_drag - by_loss) / ((double)s->some * (CONST_SCALE * torque_bound[i]) * (CONST_SCALE * torque_bound[i]));
     if (still && s->asked >= CONST_TIMES * coulomb[i]) {
         if (loss > CONST_LEAST && loss < CONST_MOST && s->least < CONST_TIMES * coulomb[i])
@@ -242,7 +243,8 @@ static void decide(NAME_state *s) {
         answer(s, i, GUARD_UNKNOWN, -1);
     } else if (fabs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] == 0)) {
         answer(s, i, GUARD_SLUGGISH, loss);
-    } else if (held && (worse < 0 ? coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i] : loss > CONST_ALL)) {
+    } else if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i]
+                         : loss > CONST_ALL && (held || (follows && s->latest < torque_bound[i]))) {
         answer(s, -1, GUARD_CONTACT, -1);
     } else if (worse < 0) {
         answer(s, i, GUARD_FRICTION, -1);

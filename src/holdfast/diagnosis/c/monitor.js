@@ -234,7 +234,7 @@ export class Monitor {
             this.rs += r * slip;
             this.tt += low * low;
             this.ss += slip * slip;
-            this.latest = Math.abs(low);
+            this.latest = Math.abs(r);
             if (this.some <= CONST_HALF) this.middle = this.latest;
         }
     }
@@ -283,8 +283,10 @@ export class Monitor {
         }
         if (!(tt > 0) || !(Math.min(byLoss, byDrag) < 0.5 * rr)) return this.#answer(i, UNKNOWN, -1);
         if (Math.abs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] === 0)) return this.#answer(i, SLUGGISH, loss);
-        const held = this.behind < trackingBound[i] && Math.abs(this.latest - this.middle) < CONST_HELD * this.middle;
-        if (held && (worse < 0 ? coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i] : loss > CONST_ALL)) return this.#answer(-1, CONTACT, -1);
+        const follows = this.behind < trackingBound[i], over = follows && this.latest < torqueBound[i];
+        const held = follows && Math.abs(this.latest - this.middle) < CONST_HELD * this.middle;
+        if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i] : loss > CONST_ALL && (held || over))
+            return this.#answer(-1, CONTACT, -1);
         if (worse < 0) return this.#answer(i, FRICTION, -1);
         if (loss > CONST_ALL || (loss > CONST_LEAST && this.behind > CONST_AWAY * trackingBound[i])) return this.#answer(i, LIMP, loss);
         return this.#answer(i, WEAK, loss);
