@@ -121,21 +121,14 @@ def _digest(bounds: Bounds, sensors: Sensors) -> str:
 def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
     """What the text leaves open, as C writes it."""
     dt = 1 / bounds.rate
-    times = {
-        "SPLIT": decision.ISOLATE,
-        "LAST": decision.ISOLATE + decision.CLASSIFY,
-        "AGAIN": decision.AGAIN,
-        "ENDS": decision.WATCHED,
-        "CALM": CALM,
-        "LONGEST": STALE,
-    }
+    times = {"SPLIT": decision.ISOLATE, "LAST": decision.ISOLATE + decision.CLASSIFY, "AGAIN": decision.AGAIN}
+    times |= {"ENDS": decision.WATCHED, "CALM": CALM, "LONGEST": STALE}
     values = {
         "DT": dt,
         "BAND": min(1.0, BAND * dt),
         "LOW": min(1.0, GAIN * dt),
         "KEEP": 1 - GAIN * dt,
         "LEVEL": min(1.0, LEVEL * dt),
-        "UNSURE": decision.UNSURE,
         "GAIN": GAIN,
         "SLIP": SLIP,
         "SLOW": SLOW,
@@ -144,20 +137,13 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "LIMIT_Z": LIMITS["torque"],
         "LIMIT_Y": LIMITS["tracking"],
         "LIMIT_W": LIMITS["tool"],
-        "SUSPECT": decision.SUSPECT,
-        "WORSE": decision.WORSE,
-        "PUSHED": decision.PUSHED,
-        "SCALE": kinds.SCALE,
-        "STILL": kinds.STILL,
-        "PART": kinds.PART,
         "NOISE": kinds.NOISY * sensors.joint,
-        "TIMES": kinds.TIMES,
         "LEAST": kinds.CARRIED[0],
         "MOST": kinds.CARRIED[1],
-        "ALL": kinds.ALL,
-        "AWAY": kinds.AWAY,
-        "GROWN": kinds.GROWN,
-        "HELD": kinds.HELD,
+    }
+    values |= {name: getattr(decision, name) for name in ("UNSURE", "SUSPECT", "WORSE", "PUSHED")}
+    values |= {
+        name: getattr(kinds, name) for name in ("SCALE", "STILL", "PART", "TIMES", "ALL", "AWAY", "GROWN", "STEADY", "DRIVEN")
     }
     named = {name: str(cycles(seconds, dt)) for name, seconds in times.items()}
     named["HALF"] = str((int(named["LAST"]) - int(named["SPLIT"])) // 2)

@@ -77,10 +77,6 @@ def fitted(arm: Arm, logs: Sequence[Log], coulomb: Array, viscous: Array) -> tup
 
 def _sampled(kernel: Kernel, coulomb: Array, viscous: Array, *, parts: Sequence[Stretch], rate: float) -> Array:
     """Residuals of a record, one for each time constant of the observer."""
-    friction, every = {"coulomb": coulomb, "viscous": viscous}, max(1, round(rate / GAIN))
-    found = [
-        residuals(kernel, part.q, part.tau, dt=1 / rate, **friction, settling=part.settling)[0][::every]
-        for part in parts
-        if part.tau is not None
-    ]
-    return np.concatenate(found)
+    of = partial(residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
+    found = [of(part.q, part.tau, settling=part.settling)[0] for part in parts if part.tau is not None]
+    return np.concatenate([r[:: max(1, round(rate / GAIN))] for r in found])

@@ -19,19 +19,12 @@ STALE = 0.050  # s without a number; over shorter gaps lines are drawn
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Rows without a long gap.
-
-    Attributes:
-        rows: Of the record.
-        q: (R, n) with lines over the short gaps, rad and m.
-        tau: (R, n) N m and N; None without torques.
-        settling: Rows until its residuals begin: its filters begin in the midst of motion, unless it is the first.
-    """
+    """Rows of a record without a long gap, R of them; lines are drawn over short ones."""
 
     rows: slice
-    q: Array
-    tau: Array | None
-    settling: int
+    q: Array  # (R, n) rad and m
+    tau: Array | None  # (R, n) N m and N
+    settling: int  # rows until residuals begin: but for the first stretch it begins in the midst of motion
 
 
 def cycles(seconds: float, dt: float) -> int:
@@ -81,7 +74,7 @@ def stretches(log: Log, there: NDArray[np.bool_]) -> Iterator[Stretch]:
 
 
 def _held(tau: Array, there: NDArray[np.bool_], dt: float) -> Array:
-    """Torques whose filter stands still in gaps, but where they alone are known: then they count by their mean."""
+    """Torques that leave their filter as it was in gaps; where they are known all along one, they count by their mean."""
     whole, level, last = tau.copy(), tau[0], 0
     edges = np.flatnonzero(np.diff(there)) + 1
     for start, stop in zip(edges[::2], edges[1::2], strict=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,16 +129,15 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
     dt, told = 1 / log.rate, seen(log)
     levels, tracking = ["tracking"], np.where(told[:, None], log.q_ref - log.q, np.nan)
     r, v, gravity, asked = (np.where(told[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4))
-    friction = {"coulomb": coulomb, "viscous": viscous}
+    of = partial(residuals, dt=dt, coulomb=coulomb, viscous=viscous)
     for part in stretches(log, told):
-        rows = np.flatnonzero(told[part.rows])
+        rows = told[part.rows]
         if part.tau is None:
-            found = {1: filtered_rates(part.q, dt, moving=part.settling > 1)}
-        else:
-            kernel = momentum_kernel(body or arm)
-            found = dict(enumerate(residuals(kernel, part.q, part.tau, dt=dt, **friction, settling=part.settling)))
-        for k, values in found.items():
-            (r, v, gravity, asked)[k][part.rows.start + rows] = values[rows]
+            v[part.rows][rows] = filtered_rates(part.q, dt, moving=part.settling > 1)[rows]
+            continue
+        found = of(momentum_kernel(body or arm), part.q, part.tau, settling=part.settling)
+        for whole, values in zip((r, v, gravity, asked), found, strict=True):
+            whole[part.rows][rows] = values[rows]
     if log.tau is not None:
         levels.append("torque")
     else:
@@ -149,8 +149,8 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
             rotations = rotations_of_quaternions(log.quat[there])
             tool[there] = _smoothed(tool_residual(arm, log.q[there], log.x[there], rotations))
             levels.append("tool")
-    found_at = {"tracking": tracking, "tool": tool, "v": v, "gravity": gravity, "asked": asked}
-    return Signals(dt=dt, seen=told, torque=r, **found_at, levels=tuple(levels))
+    parts = {"torque": r, "tracking": tracking, "tool": tool, "v": v, "gravity": gravity, "asked": asked}
+    return Signals(dt=dt, seen=told, **parts, levels=tuple(levels))
 
 
 def tool_residual(arm: Arm, q: Array, x: Array, rotations: Array) -> Array:

@@ -170,8 +170,10 @@ static void follow(NAME_state *s, const double *q, const double *reference, cons
         s->rs += r * slip;
         s->tt += low * low;
         s->ss += slip * slip;
+        s->ts += low * slip;
         s->latest = fabs(r);
-        if (s->some <= CONST_HALF) s->middle = s->latest;
+        s->whole += r;
+        if (s->some <= CONST_HALF) s->first = s->whole;
     }
 }
 
@@ -205,7 +207,7 @@ static void explain(NAME_state *s, double w, const double residual[6], const dou
 }
 
 static void decide(NAME_state *s) {
-    int i = s->joint, still, follows, held;
+    int i = s->joint, still, follows, held, driven;
     double travel, wanted, loss, drag, by_loss, by_drag, worse;
     if (s->count < CONST_SPLIT) return;
     if (s->suspect) {
@@ -232,7 +234,8 @@ static void decide(NAME_state *s) {
     by_loss = s->tt > 0 ? s->rr + 2 * loss * s->rt + loss * loss * s->tt : HUGE_VAL;
     by_drag = s->rr + 2 * drag * s->rs + drag * drag * s->ss;
     follows = s->behind < tracking_bound[i];
-    held = follows && fabs(s->latest - s->middle) < CONST_HELD * s->middle;
+    held = follows && fabs(s->whole - 2 * s->first) < CONST_STEADY * fabs(s->first);
+    driven = coulomb[i] > 0 && s->rs + s->ts > CONST_DRIVEN * coulomb[i] * s->ss;
     worse = (by_drag - by_loss) / ((double)s->some * (CONST_SCALE * torque_bound[i]) * (CONST_SCALE * torque_bound[i]));
     if (still && s->asked >= CONST_TIMES * coulomb[i]) {
         if (loss > CONST_LEAST && loss < CONST_MOST && s->least < CONST_TIMES * coulomb[i])
@@ -244,7 +247,7 @@ static void decide(NAME_state *s) {
     } else if (fabs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] == 0)) {
         answer(s, i, GUARD_SLUGGISH, loss);
     } else if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i]
-                         : loss > CONST_ALL && (held || (follows && s->latest < torque_bound[i]))) {
+                         : driven && loss > CONST_ALL && (held || (follows && s->latest < torque_bound[i]))) {
         answer(s, -1, GUARD_CONTACT, -1);
     } else if (worse < 0) {
         answer(s, i, GUARD_FRICTION, -1);
@@ -259,7 +262,7 @@ void NAME_rearm(NAME_state *s) {
     int k;
     for (k = 0; k < N; ++k) s->over_z[k] = s->over_y[k] = s->size[k] = s->residual[k] = s->left[k] = 0;
     s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
-    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->latest = s->middle = s->verdict.time = 0;
+    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->ts = s->latest = s->whole = s->first = s->verdict.time = 0;
     s->count = s->poses = s->some = 0;
     s->alarmed = s->torques = s->tool = s->suspect = s->verdict.alarm = 0;
     s->joint = s->told = -1;
