@@ -103,8 +103,8 @@ def random_record(arm, rng, wrong):
         tau[onset:, i] += rng.uniform(2, 9) * np.tanh(rates[onset:, i] / 0.02)
     elif wrong == 4:  # its sensor drifts, or jumps
         told[onset:, i] += rng.choice([0.0, 0.02]) + rng.uniform(0, 0.3) * after
-    elif wrong in (5, 7):  # a push at the tool, or at the far end of a link with four joints or more below it
-        last = n - 1 if wrong == 5 else int(rng.integers(min(3, n - 1), n))
+    elif wrong in (5, 7):  # a push at the tool, or at the far end of a link
+        last = n - 1 if wrong == 5 else int(rng.integers(n))
         frames, jacobian = arm.frames(true[onset:]), arm.jacobian(true[onset:])[:, :, : last + 1]
         arms = (frames[:, last + 2, :3, 3] - frames[:, -1, :3, 3])[:, None]  # from the tool to there
         at = jacobian[:, :3].transpose(0, 2, 1) + np.cross(jacobian[:, 3:].transpose(0, 2, 1), arms)

@@ -10,6 +10,7 @@ import pytest
 import holdfast as hf
 from cards import check_card
 from holdfast.arm.poses import pose_of
+from holdfast.diagnosis.kinds import Kinds
 from holdfast.errors import InputError
 from holdfast.faults import FaultEvent, Log
 
@@ -90,6 +91,41 @@ def test_pushes_on_links_are_nobodys_fault(panda, bounds):
         hf.diagnosis.rehearse_many(panda, 1.0, seeds=[1, 2], pushes=[[]])
 
 
+def test_a_push_that_one_joint_alone_feels(panda, bounds, healthy):
+    """Along its motion no fault of a joint that follows explains it; against its motion it cannot be told from friction."""
+    log = healthy[0]
+    way = np.sign(log.q[700, 0] - log.q[600, 0])
+    for sense, joint in ((1, None), (-1, "panda_joint1")):
+        tau = log.tau.copy()
+        tau[600:, 0] -= sense * way * 5.0
+        said = hf.diagnosis.diagnose(panda, dataclasses.replace(log, tau=tau), bounds).verdict
+        assert 0.6 < said.time < 0.7
+        assert said.joint == joint
+        assert "contact" in said.candidates
+
+
+def named(torque, residual, *, behind=1e-3, coulomb=0.5):
+    """What is said of a joint that moves at 0.3 rad/s while its servo gives a torque, and that much is not explained."""
+    kinds = Kinds(0, coulomb=coulomb, bounds=(2.0, 0.01), largest=1.3, noise=2e-5, torques=True, half=50)
+    for k, (given, r) in enumerate(zip(torque.tolist(), residual.tolist(), strict=True)):
+        kinds.add(3e-4 * k - behind, 3e-4 * k, 1.0, (r, given, 0.0))
+    return kinds.named("rad", ())["kind"]
+
+
+def test_what_a_servo_holds_is_pushed():
+    """A motor that gives nothing lets its joint go, which needs no torque then; its servo asks for more, or is far behind."""
+    same, grows = np.full(100, 4.0), 4.0 + 1e-2 * np.arange(100.0) ** 2
+    assert named(-same, same + 0.6) == "contact"
+    assert named(-same, same) == "limp"  # it moves as if by nothing
+    assert named(-grows, grows) == "limp"
+    assert named(-same, same + 0.6, behind=0.02) == "limp"
+    assert named(-16 / grows, 16 / grows + 0.6) == "contact"  # it is over
+    wave = 13 + 4 * np.sin(2 * np.pi / 25 * np.arange(100))
+    assert named(wave, -2 * same) == "contact"  # friction that grew by 16 times is not believed
+    assert named(wave, -2 * same, coulomb=1.0) == "friction"
+    assert named(wave, -2 * same, behind=0.02) == "friction"
+
+
 def test_nothing_seen_is_not_called_well(panda, bounds, healthy):
     still = dataclasses.replace(healthy[0], q=healthy[0].q.copy(), q_ref=healthy[0].q_ref.copy(), x=None, quat=None)
     still.q_ref[:, 2] = still.q[:, 2] = 0.1
@@ -142,6 +178,34 @@ def test_a_pose_that_comes_late_and_numbers_that_do_not_come(panda, bounds, reco
         assert not monitor.verdict.alarm
     with pytest.raises(InputError, match="latency is -1 s; it must be 0 to 1 s"):
         hf.diagnosis.Sensors(latency=-1)
+
+
+def test_gaps_in_a_record_are_nobodys_fault(panda, bounds):
+    """Filters begin anew after long ones, the answer says that nothing was looked at then, and a lock after them is noticed.
+
+    So says the loop, whose residual after them is the same; rows that are not there are as rows of NaN.
+    """
+    fault = [FaultEvent("locked", "panda_joint4", 11.8)]
+    log = hf.diagnosis.rehearse(panda, 12.0, seed=1, faults=fault, pose=False)
+    missing, long = np.zeros(len(log.t), dtype=bool), ((0.70, 0.76), (0.9, 1.4), (1.5, 11.5))
+    for start, end in ((0.5, 0.52), *long):
+        missing[round(1000 * start) : round(1000 * end)] = True
+    holes = {name: np.where(missing[:, None], np.nan, getattr(log, name)) for name in ("q", "tau")}
+    given = {name: getattr(log, name) for name in ("t", "q_ref", "q", "tau")}
+    monitor = hf.diagnosis.Monitor(panda, bounds)
+    for row in zip(holes["q"], log.q_ref, holes["tau"], strict=True):
+        told = monitor.step(*row)
+    for record in (Log(**{**given, **holes}), Log(**{name: value[~missing] for name, value in given.items()})):
+        found = hf.diagnosis.diagnose(panda, record, bounds)
+        assert (found.verdict.joint, found.verdict.time) == ("panda_joint4", pytest.approx(11.8, abs=0.05))
+        assert found.signals.torque[-1] == pytest.approx(monitor._r, abs=1e-9)
+        assert (told.time, told.joint, told.kind) == (
+            pytest.approx(found.verdict.time),
+            found.verdict.joint,
+            found.verdict.kind,
+        )
+        assert np.ravel(found.gaps) == pytest.approx(np.ravel(long), abs=2e-3)
+        assert "nothing was looked at for 10.56 s: there the record has no numbers of the joints" in found.describe()
 
 
 def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):

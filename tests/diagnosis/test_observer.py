@@ -43,7 +43,7 @@ def test_the_residual_is_the_external_torque(panda):
         torques.append(torque)
         mujoco.mj_step(model, data)
     wet = np.array([joint.friction for joint in panda.joints])
-    r, _, _ = residuals(momentum_kernel(panda), np.array(places), np.array(torques), dt=1e-3, coulomb=np.zeros(7), viscous=wet)
+    r, *_ = residuals(momentum_kernel(panda), np.array(places), np.array(torques), dt=1e-3, coulomb=np.zeros(7), viscous=wet)
     assert np.abs(r[100:300]).max() < 0.15
     assert r[-1, 3] == pytest.approx(5.0, abs=0.15)
     assert np.abs(np.delete(r[-1], 3)).max() < 0.15

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.diagnosis.bounds import Bounds
+from holdfast.diagnosis.gaps import STALE
 from holdfast.diagnosis.kinds import Verdict
 from holdfast.diagnosis.signals import Scaled, Signals
 from holdfast.faults.log import Log
@@ -63,6 +65,13 @@ class Diagnosis(Result):
         fast = speed > _FASTER * self.bounds.speed + 1e-9
         return tuple(name for name, faster in zip(self.arm.joint_names, fast, strict=True) if faster)
 
+    @cached_property
+    def gaps(self) -> tuple[tuple[float, float], ...]:
+        """From when to when, s, nothing was looked at: the record has no numbers of the joints for more than 50 ms."""
+        told = self.log.t[self.signals.seen]
+        ends = [self.log.t[0], *told, self.log.t[-1]]
+        return tuple((float(a), float(b)) for a, b in pairwise(ends) if b - a > STALE + 1.5 * self.signals.dt)
+
     @property
     def off(self) -> tuple[str, ...]:
         """What is not watched, because the record or the bounds do not have it."""
@@ -86,6 +95,9 @@ class Diagnosis(Result):
             lines.append(f"it may also be: {', '.join(others)}")
         if self.untold:
             lines.append(f"these joints did not move enough to tell: {', '.join(self.untold)}")
+        if self.gaps:
+            long = sum(end - start for start, end in self.gaps)
+            lines.append(f"nothing was looked at for {long:.4g} s: there the record has no numbers of the joints")
         if self.off:
             lines.append(f"not watched: {', '.join(self.off)}")
         if self.beyond:

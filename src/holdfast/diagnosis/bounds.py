@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.diagnosis.fitting import fitted, scaled
+from holdfast.diagnosis.gaps import evened
 from holdfast.diagnosis.signals import signals_of
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
@@ -203,6 +204,7 @@ def calibrate(
     for log in logs:
         if abs(log.rate / rate - 1) > OFF_RATE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
+    logs = [evened(log) for log in logs]
     scales = np.ones(arm.n)
     if fit:
         scales, dry, wet = fitted(arm, logs, dry, wet)
@@ -225,7 +227,7 @@ def calibrate(
             others = [factor * np.delete(x, k, axis=0).max(axis=0) for x in largest]
             alarms += signals.scaled(*others).alarm is not None
     bounds = [factor * x.max(axis=0) for x in largest]
-    hours = sum(log.duration for log in logs) / _HOUR
+    hours = sum(log.duration * s.seen.mean() for log, s in zip(logs, found, strict=True)) / _HOUR
     return Bounds(
         fingerprint=arm.fingerprint,
         joints=arm.joint_names,
@@ -239,7 +241,7 @@ def calibrate(
         viscous=np.array(wet, dtype=np.float64),
         scales=scales,
         factor=float(factor),
-        speed=np.max([np.abs(np.diff(log.q_ref, axis=0) * rate).max(axis=0) for log in logs], axis=0),
+        speed=np.nanmax([np.nanmax(np.abs(np.diff(log.q_ref, axis=0) * rate), axis=0) for log in logs], axis=0),
         hours=hours,
         logs=len(logs),
         alarms=alarms,

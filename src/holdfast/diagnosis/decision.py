@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.diagnosis.bounds import Bounds
+from holdfast.diagnosis.gaps import cycles
 from holdfast.diagnosis.kinds import SCALE, Kinds, Verdict
 from holdfast.diagnosis.observer import SLIP
 from holdfast.diagnosis.sensors import Sensors
@@ -122,7 +123,8 @@ class Decision:
         i, bounds = int(self._size.argmax()), self._bounds
         both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
         dry = float(bounds.coulomb[i])
-        self._kinds = Kinds(i, coulomb=dry, bounds=both, largest=healthy, noise=self._noise, torques=self._torques)
+        half = (self._last - self._split) // 2
+        self._kinds = Kinds(i, coulomb=dry, bounds=both, largest=healthy, noise=self._noise, torques=self._torques, half=half)
 
     def verdict(self, *, last: bool = False) -> Verdict:
         """What is known now.
@@ -145,7 +147,8 @@ class Decision:
         others = np.delete(size, self._kinds.joint).max(initial=0.0)
         reason = (f"its residuals are {size[self._kinds.joint]:.3g} times their bounds, those of the next joint {others:.3g}",)
         found: dict[str, Any] = self._kinds.named(joint.unit, () if self._tool else ("sensor",))
-        return Verdict(True, self._time, joint=joint.name, **{**found, "evidence": reason + found["evidence"]})
+        blamed = None if found["kind"] == "contact" else joint.name
+        return Verdict(True, self._time, joint=blamed, **{**found, "evidence": reason + found["evidence"]})
 
     def _sensor(self) -> Verdict:
         """Of which joint the sensor would explain the tool's pose."""
@@ -160,11 +163,6 @@ class Decision:
                 evidence.append(f"{self._arm.joint_names[first]} and {self._arm.joint_names[second]} explain its pose alike")
         candidates, reasons = ("sensor", "slipping_clutch"), tuple(evidence)
         return Verdict(True, self._time, joint=joint, kind="sensor", candidates=candidates, evidence=reasons)
-
-
-def cycles(seconds: float, dt: float) -> int:
-    """So many cycles, at least one."""
-    return max(1, round(seconds / dt))
 
 
 def _better_by_force(arm: Arm, q: Array, change: Array, scale: Array) -> float:

@@ -21,7 +21,7 @@ from holdfast.control.c_functions import Function, commented, filled, written
 from holdfast.control.export import check_name, quoted, version
 from holdfast.diagnosis import decision, kinds
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.monitor import STALE
+from holdfast.diagnosis.gaps import STALE, cycles
 from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
@@ -121,21 +121,14 @@ def _digest(bounds: Bounds, sensors: Sensors) -> str:
 def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
     """What the text leaves open, as C writes it."""
     dt = 1 / bounds.rate
-    times = {
-        "SPLIT": decision.ISOLATE,
-        "LAST": decision.ISOLATE + decision.CLASSIFY,
-        "AGAIN": decision.AGAIN,
-        "ENDS": decision.WATCHED,
-        "CALM": CALM,
-        "LONGEST": STALE,
-    }
+    times = {"SPLIT": decision.ISOLATE, "LAST": decision.ISOLATE + decision.CLASSIFY, "AGAIN": decision.AGAIN}
+    times |= {"ENDS": decision.WATCHED, "CALM": CALM, "LONGEST": STALE}
     values = {
         "DT": dt,
         "BAND": min(1.0, BAND * dt),
         "LOW": min(1.0, GAIN * dt),
         "KEEP": 1 - GAIN * dt,
         "LEVEL": min(1.0, LEVEL * dt),
-        "UNSURE": decision.UNSURE,
         "GAIN": GAIN,
         "SLIP": SLIP,
         "SLOW": SLOW,
@@ -144,21 +137,16 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "LIMIT_Z": LIMITS["torque"],
         "LIMIT_Y": LIMITS["tracking"],
         "LIMIT_W": LIMITS["tool"],
-        "SUSPECT": decision.SUSPECT,
-        "WORSE": decision.WORSE,
-        "PUSHED": decision.PUSHED,
-        "SCALE": kinds.SCALE,
-        "STILL": kinds.STILL,
-        "PART": kinds.PART,
         "NOISE": kinds.NOISY * sensors.joint,
-        "TIMES": kinds.TIMES,
         "LEAST": kinds.CARRIED[0],
         "MOST": kinds.CARRIED[1],
-        "ALL": kinds.ALL,
-        "AWAY": kinds.AWAY,
-        "GROWN": kinds.GROWN,
     }
-    named = {name: str(decision.cycles(seconds, dt)) for name, seconds in times.items()}
+    values |= {name: getattr(decision, name) for name in ("UNSURE", "SUSPECT", "WORSE", "PUSHED")}
+    values |= {
+        name: getattr(kinds, name) for name in ("SCALE", "STILL", "PART", "TIMES", "ALL", "AWAY", "GROWN", "STEADY", "DRIVEN")
+    }
+    named = {name: str(cycles(seconds, dt)) for name, seconds in times.items()}
+    named["HALF"] = str((int(named["LAST"]) - int(named["SPLIT"])) // 2)
     named |= {name: number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
     named_kinds = ", ".join(map(quoted, _KINDS))

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from holdfast.arm.kinematics import joint_symbols
 from holdfast.arm.machine import Link
 from holdfast.arm.model import Arm
+from holdfast.diagnosis.gaps import Stretch, seen, stretches
 from holdfast.diagnosis.observer import GAIN, momentum_terms, residuals
-from holdfast.diagnosis.signals import bridged
 from holdfast.faults.log import Log
 from holdfast.kernels.kernel import Kernel
 
@@ -57,7 +57,7 @@ def fitted(arm: Arm, logs: Sequence[Log], coulomb: Array, viscous: Array) -> tup
     for log in logs:
         if log.tau is None:
             continue
-        residual = partial(_sampled, q=bridged(log.q), tau=bridged(log.tau), rate=log.rate)
+        residual = partial(_sampled, parts=[*stretches(log, seen(log))], rate=log.rate)
         r = residual(plain, coulomb, viscous)
         deviation = np.maximum(r.std(axis=0), 1e-6) if deviation is None else deviation
         columns = np.zeros((*r.shape, 3 * n))
@@ -75,7 +75,8 @@ def fitted(arm: Arm, logs: Sequence[Log], coulomb: Array, viscous: Array) -> tup
     return np.asarray(1 + theta[:n]), np.maximum(dry, 0.0), np.maximum(wet, 0.0)
 
 
-def _sampled(kernel: Kernel, coulomb: Array, viscous: Array, *, q: Array, tau: Array, rate: float) -> Array:
+def _sampled(kernel: Kernel, coulomb: Array, viscous: Array, *, parts: Sequence[Stretch], rate: float) -> Array:
     """Residuals of a record, one for each time constant of the observer."""
-    whole, _, _ = residuals(kernel, q, tau, dt=1 / rate, coulomb=coulomb, viscous=viscous)
-    return whole[:: max(1, round(rate / GAIN))]
+    of = partial(residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
+    found = [of(part.q, part.tau, settling=part.settling)[0] for part in parts if part.tau is not None]
+    return np.concatenate([r[:: max(1, round(rate / GAIN))] for r in found])

@@ -10,16 +10,15 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.diagnosis.answer import Diagnosis
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, UNSURE, Decision, cycles
+from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, UNSURE, Decision
+from holdfast.diagnosis.gaps import STALE, cycles, evened
 from holdfast.diagnosis.kinds import Verdict
-from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, friction_torque, level, low_passed, momentum_kernel
+from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, friction_torque, level, momentum_kernel
 from holdfast.diagnosis.sensors import Sensors
-from holdfast.diagnosis.signals import CALM, LIMITS, SLOW, SMOOTHED, Scaled, Signals, bridged, signals_of, tool_residual
+from holdfast.diagnosis.signals import CALM, LIMITS, SLOW, SMOOTHED, Scaled, Signals, signals_of, tool_residual
 from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
-
-STALE = 0.050  # s without a number; over shorter gaps lines are drawn
 
 
 @checked
@@ -64,13 +63,14 @@ class Monitor:
     # ---- a record ----------------------------------------------------------------------------------------------------
 
     def run(self, log: Log) -> Diagnosis:
-        """Over a record.
+        """Over a record: what :meth:`step` says of it. Rows that are missing are as rows of NaN.
 
         Raises:
-            InputError: Another rate than that of the bounds, or another number of joints.
+            InputError: Another rate than that of the bounds, another number of joints, or no row with all of its numbers.
         """
         bounds = self.bounds
         bounds.require(self.arm, log.rate)
+        log = evened(log)
         body = bounds.body(self.arm)
         signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous, body=body)
         scaled = signals.scaled(bounds.torque, bounds.tracking, bounds.position, bounds.angle)
@@ -95,14 +95,9 @@ class Monitor:
         sure = (scaled.torque[: row + 1] < UNSURE).all(axis=1)
         before = level(np.concatenate([np.zeros((1, log.n)), signals.torque[: row + 1][sure]]), signals.dt)[-1]
         decision = self._decision(float(log.t[row]), signals.levels, alarmed, before)
-        rows = slice(row, row + decision.ends)
-        q, reference = bridged(log.q), bridged(log.q_ref)[rows]
-        low = np.zeros(q.shape)
-        if log.tau is not None:
-            tau = bridged(log.tau)
-            low = low_passed(low_passed(tau, signals.dt, BAND, tau[0]), signals.dt, GAIN, tau[0])
-        parts = [part[rows] for part in (signals.v, signals.torque, low, signals.gravity, scaled.torque, scaled.tracking)]
-        q = q[rows]
+        rows = row + np.flatnonzero(signals.seen[row:])[: decision.ends]
+        whole = (signals.v, signals.torque, signals.asked, signals.gravity, scaled.torque, scaled.tracking)
+        parts, q, reference = [part[rows] for part in whole], log.q[rows], log.q_ref[rows]
         seen = np.asarray(np.isfinite(signals.tool[rows]).all(axis=1))
         if log.x is not None and log.quat is not None and seen.any():
             rotations = rotations_of_quaternions(log.quat[rows][seen])
@@ -112,7 +107,7 @@ class Monitor:
             v, r, torque, gravity, z, y = (part[k] for part in parts)
             decision.add(q[k], reference[k], (v, r, torque, gravity), z, y)
             if seen[k]:
-                decision.see(float(scaled.tool[row + k]), *next(samples))
+                decision.see(float(scaled.tool[rows[k]]), *next(samples))
         return decision.verdict(last=True)
 
     # ---- a control cycle ---------------------------------------------------------------------------------------------
@@ -237,7 +232,8 @@ class Monitor:
         bounds = self.bounds
         w = max(float(np.linalg.norm(mean[:3])) / bounds.position, float(np.linalg.norm(mean[3:])) / bounds.angle)
         if self._seen:
-            self._over_w = max(0.0, self._over_w + (w - 1) * (self._cycle - self._seen_at) * self._dt)
+            since = min(self._cycle - self._seen_at, self._longest)  # of a long silence one sample proves nothing
+            self._over_w = max(0.0, self._over_w + (w - 1) * since * self._dt)
         self._seen, self._seen_at = self._seen + 1, self._cycle
         return w, residual
 

@@ -63,13 +63,18 @@ def level(r: Array, dt: float) -> Array:
     return low_passed(r, dt, LEVEL, np.zeros(r.shape[1]))
 
 
-def filtered_rates(q: Array, dt: float) -> Array:
-    """(T, n) rates of joint values (T, n), 0 at first."""
-    return low_passed(np.diff(q, axis=0, prepend=q[:1]) / dt, dt, BAND, np.zeros(q.shape[1]))
+def filtered_rates(q: Array, dt: float, *, moving: bool = False) -> Array:
+    """(T, n) rates of joint values (T, n), from rest, or from the first rate of a joint that is moving."""
+    steps = np.diff(q, axis=0, prepend=q[:1]) / dt
+    if moving:
+        steps[0] = steps[min(1, len(q) - 1)]
+    return low_passed(steps, dt, BAND, steps[0])
 
 
-def residuals(kernel: Kernel, q: Array, tau: Array, *, dt: float, coulomb: Array, viscous: Array) -> tuple[Array, Array, Array]:
-    """Residuals, filtered rates and gravity torques of a record, (T, n) each.
+def residuals(
+    kernel: Kernel, q: Array, tau: Array, *, dt: float, coulomb: Array, viscous: Array, settling: int = 1
+) -> tuple[Array, Array, Array, Array]:
+    """Residuals, filtered rates, gravity torques, and torques through both filters of a record, (T, n) each.
 
     The observer is linear in what the kernel gives, and so a filter: ``r_k = (1 - K dt) r_{k-1} + K (p_k - p_{k-1} - dt u_k)``
     with ``u = tau + dT/dq - g - F``.
@@ -81,14 +86,15 @@ def residuals(kernel: Kernel, q: Array, tau: Array, *, dt: float, coulomb: Array
         dt: s.
         coulomb: (n,) dry friction, N m and N.
         viscous: (n,) N m s/rad and N s/m.
+        settling: Rows until residuals begin; with more than one the record begins in the midst of motion.
     """
     from scipy.signal import lfilter
 
-    v, torque = filtered_rates(q, dt), low_passed(tau, dt, BAND, tau[0])
+    v, torque = filtered_rates(q, dt, moving=settling > 1), low_passed(tau, dt, BAND, tau[0])
     p, energy, gravity = kernel(q, v)
     change = np.diff(p, axis=0, prepend=p[:1]) - dt * (torque + energy - gravity - friction_torque(v, coulomb, viscous))
-    change[0] = 0.0  # it begins with r = 0
-    return np.asarray(lfilter([GAIN], [1, GAIN * dt - 1], change, axis=0)), v, gravity
+    change[:settling] = 0.0  # it begins with r = 0
+    return np.asarray(lfilter([GAIN], [1, GAIN * dt - 1], change, axis=0)), v, gravity, low_passed(torque, dt, GAIN, tau[0])
 
 
 def excess(z: Array, dt: float | Array) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
@@ -16,15 +16,13 @@ from holdfast.faults.events import FaultEvent
 from holdfast.faults.injector import FaultInjector
 from holdfast.faults.log import Log
 from holdfast.notice import each, says
-from holdfast.physics.body import spread, with_motors
+from holdfast.physics.body import Body, spread, with_motors
 from holdfast.physics.servos import Servos
 
 Array = NDArray[np.float64]
 
 _STEP = 1e-3  # s
 _HALF = 0.6  # rad or m to either side of the middle, at most; and half of the room to the limits
-_ROTOR = 0.1  # kg m^2, where the arm states none
-_NOISE = {"q": 2e-5, "tau": 0.05, "x": 0.5e-3, "angle": 1e-3}  # standard deviations: rad, N m, m, rad
 _POSE_RATE = 100.0  # Hz
 _FAST = 10.0  # rad/s or m/s: servos feel no more
 _AT_ONCE = 10  # robots: more leave the processor's cache
@@ -91,8 +89,8 @@ def rehearse(
         A record of 1000 samples a second. Everything in it is simulated.
 
     Raises:
-        InputError: Not a finite time above 0, both or none of time and motion, an unknown joint, or a fault that the model
-            cannot have.
+        InputError: Not a finite time above 0, both or none of time and motion, an unknown joint, a fault that the model cannot
+            have, or numbers that :class:`holdfast.Body` refuses.
         ArmError: Inertial data are missing or impossible.
         HoldfastError: MuJoCo is not installed.
     """
@@ -100,8 +98,8 @@ def rehearse(
         raise InputError("give the duration or the motion of the record, one of them")
     rng = np.random.default_rng(seed)
     reference = _swinging(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
-    off = {"mismatch": mismatch, "coulomb": coulomb, "viscous": viscous}
-    robot = _Robot(arm, reference, rng, seed if body is None else body, faults, pushes, off)
+    made = Body(seed if body is None else body, mismatch=mismatch, coulomb=coulomb, viscous=viscous)
+    robot = _Robot(arm, reference, rng, made, faults, pushes)
     return _records(arm, [robot], pose)[0]
 
 
@@ -154,7 +152,7 @@ def rehearse_many(
             rng = np.random.default_rng(seeds[k])
             events, forces = faults[k] if faults else (), pushes[k] if pushes else ()
             reference = _swinging(arm, duration, speed, rng)
-            robots.append(_Robot(arm, reference, rng, (bodies or seeds)[k], events, forces, off))
+            robots.append(_Robot(arm, reference, rng, Body((bodies or seeds)[k], **off), events, forces))
         logs += _records(arm, robots, pose)
     return tuple(logs)
 
@@ -167,14 +165,13 @@ class _Robot:
         arm: Arm,
         reference: Array,
         rng: np.random.Generator,
-        body: int,
+        body: Body,
         faults: Sequence[FaultEvent],
         pushes: Sequence[Push],
-        off: Mapping[str, float],
     ) -> None:
         self._mujoco, self.reference, self.rng, self.happens = import_mujoco(), reference, rng, bool(faults or pushes)
-        self.model = with_motors(arm, step=_STEP, rotor=_ROTOR)
-        spread(self.model, body, **off)
+        self.body, self.model = body, with_motors(arm, step=_STEP, rotor=body.rotor)
+        spread(self.model, body.seed, mismatch=body.mismatch, coulomb=body.coulomb, viscous=body.viscous)
         self.data = self._mujoco.MjData(self.model)
         self.stiffness, self.damping = Servos(step=_STEP).gains(arm, self._mujoco, self.model, start=np.zeros(arm.n))
         self.data.qpos[:] = reference[0]
@@ -197,7 +194,7 @@ def _records(arm: Arm, robots: Sequence[_Robot], pose: bool) -> list[Log]:
     step, count, n = import_mujoco().mj_step, len(robots[0].reference), arm.n
     t = np.arange(count, dtype=np.float64) * _STEP
     reference = np.stack([robot.reference for robot in robots], axis=1)
-    noise = np.stack([robot.rng.normal(0, _NOISE["q"], (count, n)) for robot in robots], axis=1)
+    noise = np.stack([robot.rng.normal(0, robot.body.joint, (count, n)) for robot in robots], axis=1)
     stiffness, damping = (np.array([getattr(robot, name) for robot in robots]) for name in ("stiffness", "damping"))
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _STEP
     told, tau, true = np.empty_like(reference), np.empty_like(reference), np.empty_like(reference)
@@ -227,8 +224,8 @@ def _records(arm: Arm, robots: Sequence[_Robot], pose: bool) -> list[Log]:
             step(model, data)
     logs = []
     for r, robot in enumerate(robots):
-        x, quat = _measured(arm, true[:, r], robot.rng) if pose else (None, None)
-        felt = tau[:, r] + robot.rng.normal(0, _NOISE["tau"], (count, n))
+        x, quat = _measured(arm, true[:, r], robot) if pose else (None, None)
+        felt = tau[:, r] + robot.rng.normal(0, robot.body.torque, (count, n))
         logs.append(Log(t=t, q_ref=robot.reference, q=told[:, r].copy(), tau=felt, x=x, quat=quat))
     return logs
 
@@ -244,14 +241,12 @@ def _swinging(arm: Arm, duration: float | None, speed: float, rng: np.random.Gen
     return np.asarray((low + high) / 2 + half * np.sin(np.where(t < 0.5, t**2, t - 0.25)[:, None] * pace))
 
 
-def _measured(arm: Arm, q: Array, rng: np.random.Generator) -> tuple[Array, Array]:
+def _measured(arm: Arm, q: Array, robot: _Robot) -> tuple[Array, Array]:
     """Tool poses with noise, NaN between samples."""
     from scipy.spatial.transform import Rotation
 
     every = round(1 / (_POSE_RATE * _STEP))
-    poses = arm.forward_kinematics(q[::every])
+    poses = robot.body.measured(arm.forward_kinematics(q[::every]), robot.rng)
     x, quat = np.full((len(q), 3), np.nan), np.full((len(q), 4), np.nan)
-    x[::every] = poses[:, :3, 3] + rng.normal(0, _NOISE["x"], (len(poses), 3))
-    turned = Rotation.from_rotvec(rng.normal(0, _NOISE["angle"], (len(poses), 3)))
-    quat[::every] = (turned * Rotation.from_matrix(poses[:, :3, :3])).as_quat()
+    x[::every], quat[::every] = poses[:, :3, 3], Rotation.from_matrix(poses[:, :3, :3]).as_quat()
     return x, quat

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors, rotations_of_quaternions
+from holdfast.diagnosis.gaps import STALE, seen, stretches
 from holdfast.diagnosis.observer import excess, filtered_rates, level, momentum_kernel, residuals
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
@@ -47,20 +49,24 @@ class Signals:
 
     Attributes:
         dt: s.
+        seen: (T,) whether the joints told all of their numbers; where not, what follows has NaN.
         torque: (T, n) residual torque r, N m and N; 0 without torques.
         tracking: (T, n) distance from the reference, rad and m; without torques NaN in motion that is not slow.
         tool: (T, 6) measured pose less that of the joints, m and rad, smoothed; NaN between samples.
         v: (T, n) filtered rates, rad/s and m/s.
         gravity: (T, n) N m and N; 0 without torques.
+        asked: (T, n) commanded torques through both filters of the residual, likewise.
         levels: What of ``torque``, ``tracking`` and ``tool`` is there.
     """
 
     dt: float
+    seen: NDArray[np.bool_]
     torque: Array
     tracking: Array
     tool: Array
     v: Array
     gravity: Array
+    asked: Array
     levels: tuple[str, ...]
 
     def largest(self, name: str) -> Array | float:
@@ -69,7 +75,8 @@ class Signals:
         Infinite if absent.
         """
         if name == "change":
-            change = self.torque - level(self.torque, self.dt)
+            torque = self.torque[self.seen]
+            change = torque - level(torque, self.dt)
             return np.asarray(np.abs(change).max(axis=0) if "torque" in self.levels else np.full(change.shape[1], np.inf))
         if name in ("torque", "tracking"):
             values = np.nan_to_num(np.abs(getattr(self, name))).max(axis=0)
@@ -92,11 +99,11 @@ class Signals:
         return Scaled(torque=z, tracking=y, tool=w, excess=over, alarm=alarm)
 
     def _tool_excess(self, w: Array) -> Array:
-        """Between samples of the pose it stays; each counts for the time since the last one."""
+        """Between samples of the pose it stays; each counts for the time since the last one, but for no more than 50 ms."""
         there = np.flatnonzero(np.isfinite(w))
         total = np.zeros(len(w))
         if there.size > 1:
-            steps = np.diff(there, prepend=there[0]) * self.dt
+            steps = np.minimum(np.diff(there, prepend=there[0]) * self.dt, STALE)
             found = excess(w[there], steps)
             total = found[np.maximum(np.searchsorted(there, np.arange(len(w)), side="right") - 1, 0)]
             total[: there[0]] = 0.0
@@ -108,34 +115,42 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
 
     Args:
         arm: The arm.
-        log: The record, evenly sampled; missing joint values are bridged, and are nobody's fault.
+        log: The record, evenly sampled; missing joint values are nobody's fault.
         coulomb: (n,) dry friction, N m and N.
         viscous: (n,) N m s/rad and N s/m.
         body: The arm with the masses that it has, if they are known better.
 
     Raises:
-        InputError: A record of another number of joints.
+        InputError: A record of another number of joints, or without a row that has all of its numbers.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
     """
     if log.n != arm.n:
         raise InputError(f"the record has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
-    dt, tracking = 1 / log.rate, log.q_ref - log.q
-    q = bridged(log.q)
-    levels, r, gravity = ["tracking"], np.zeros(q.shape), np.zeros(q.shape)
+    dt, told = 1 / log.rate, seen(log)
+    levels, tracking = ["tracking"], np.where(told[:, None], log.q_ref - log.q, np.nan)
+    r, v, gravity, asked = (np.where(told[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4))
+    of = partial(residuals, dt=dt, coulomb=coulomb, viscous=viscous)
+    for part in stretches(log, told):
+        rows = told[part.rows]
+        if part.tau is None:
+            v[part.rows][rows] = filtered_rates(part.q, dt, moving=part.settling > 1)[rows]
+            continue
+        found = of(momentum_kernel(body or arm), part.q, part.tau, settling=part.settling)
+        for whole, values in zip((r, v, gravity, asked), found, strict=True):
+            whole[part.rows][rows] = values[rows]
     if log.tau is not None:
-        r, v, gravity = residuals(momentum_kernel(body or arm), q, bridged(log.tau), dt=dt, coulomb=coulomb, viscous=viscous)
         levels.append("torque")
     else:
-        v = filtered_rates(q, dt)
-        tracking[~calm(log.q_ref, dt)] = np.nan
-    tool = np.full((len(q), 6), np.nan)
+        tracking[~calm(log.q_ref, told, dt)] = np.nan
+    tool = np.full((len(told), 6), np.nan)
     if log.x is not None and log.quat is not None:
-        there = np.flatnonzero(np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
+        there = np.flatnonzero(told & np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
         if there.size >= SMOOTHED:
             rotations = rotations_of_quaternions(log.quat[there])
-            tool[there] = _smoothed(tool_residual(arm, q[there], log.x[there], rotations))
+            tool[there] = _smoothed(tool_residual(arm, log.q[there], log.x[there], rotations))
             levels.append("tool")
-    return Signals(dt=dt, torque=r, tracking=tracking, tool=tool, v=v, gravity=gravity, levels=tuple(levels))
+    parts = {"torque": r, "tracking": tracking, "tool": tool, "v": v, "gravity": gravity, "asked": asked}
+    return Signals(dt=dt, seen=told, **parts, levels=tuple(levels))
 
 
 def tool_residual(arm: Arm, q: Array, x: Array, rotations: Array) -> Array:
@@ -145,28 +160,13 @@ def tool_residual(arm: Arm, q: Array, x: Array, rotations: Array) -> Array:
     return np.concatenate([x - poses[:, :3, 3], turns], axis=1)
 
 
-def calm(reference: Array, dt: float) -> NDArray[np.bool_]:
-    """(T,) whether all references (T, n) were slow for a while."""
-    fast = np.asarray((np.abs(np.diff(reference, axis=0, prepend=reference[:1])) >= SLOW * dt).any(axis=1))
-    rows = np.arange(len(fast))
-    return np.asarray(rows - np.maximum.accumulate(np.where(fast, rows, -1)) >= max(1, round(CALM / dt)))
-
-
-def bridged(values: Array) -> Array:
-    """A record (T, n) with straight lines over what is missing.
-
-    Raises:
-        InputError: A column holds no number.
-    """
-    if np.isfinite(values).all():
-        return values
-    whole, rows = values.copy(), np.arange(len(values))
-    for column in whole.T:
-        good = np.isfinite(column)
-        if not good.any():
-            raise InputError("a column of the record holds no number at all; leave the signal out")
-        column[~good] = np.interp(rows[~good], rows[good], column[good])
-    return whole
+def calm(reference: Array, told: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
+    """(T,) whether all references (T, n) were slow for a while, of the rows that have them."""
+    rows, slow = np.flatnonzero(told), np.zeros(len(told), dtype=bool)
+    steps = np.abs(np.diff(reference[rows], axis=0, prepend=reference[rows[:1]]))
+    fast = (steps >= SLOW * dt * np.diff(rows, prepend=rows[0] - 1)[:, None]).any(axis=1)
+    slow[rows] = rows - np.maximum.accumulate(np.where(fast, rows, -1)) >= max(1, round(CALM / dt))
+    return slow
 
 
 def _smoothed(rows: Array) -> Array:

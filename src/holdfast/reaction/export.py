@@ -22,6 +22,7 @@ from holdfast.diagnosis import decision
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.export import ExportedMonitor
 from holdfast.diagnosis.export import export_c as export_monitor
+from holdfast.diagnosis.gaps import cycles
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.files.output import put
 from holdfast.kernels.c_backend import number
@@ -165,7 +166,7 @@ def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "TASK_TEXT": "{" + ", ".join(f"{{{_listed(row)}}}" for row in law.task.rows) + "}",
         "CONST_ARRAYS": "".join(f"constexpr double {key}[{arm.n}] = {{{_listed(x)}}};\n" for key, x in arrays.items()),
         "CONST_SAMPLES": str(controller.SAMPLES),
-        "CONST_KNOWN": str(decision.cycles(decision.ISOLATE + decision.CLASSIFY, 1 / bounds.rate)),
+        "CONST_KNOWN": str(cycles(decision.ISOLATE + decision.CLASSIFY, 1 / bounds.rate)),
         **{f"CONST_{key}": number(value) for key, value in values.items()},
     }
 

@@ -80,6 +80,7 @@ static void off_tool(const double *q, const double *pose, double residual[6], do
 /* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
 static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
     double mean[6] = {0}, w;
+    long since;
     int i, k, some;
     off_tool(q, pose, residual, jacobian);
     for (i = 0; i < 6; ++i) s->last[s->seen % SMOOTHED][i] = residual[i];
@@ -89,7 +90,8 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
     for (i = 0; i < 6; ++i) mean[i] /= some;
     w = larger(sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / CONST_POSITION,
                sqrt(mean[3] * mean[3] + mean[4] * mean[4] + mean[5] * mean[5]) / CONST_ANGLE);
-    if (s->seen) s->over_w = larger(0, s->over_w + (w - 1) * (double)(s->cycle - s->seen_at) * DT);
+    since = s->cycle - s->seen_at < CONST_LONGEST ? s->cycle - s->seen_at : CONST_LONGEST; /* of long silence it proves nothing */
+    if (s->seen) s->over_w = larger(0, s->over_w + (w - 1) * (double)since * DT);
     s->seen += 1;
     s->seen_at = s->cycle;
     return w;
@@ -171,6 +173,10 @@ static void follow(NAME_state *s, const double *q, const double *reference, cons
         s->rs += r * slip;
         s->tt += low * low;
         s->ss += slip * slip;
+        s->ts += low * slip;
+        s->latest = fabs(r);
+        s->whole += r;
+        if (s->some <= CONST_HALF) s->first = s->whole;
     }
 }
 
@@ -204,7 +210,7 @@ static void explain(NAME_state *s, double w, const double residual[6], const dou
 }
 
 static void decide(NAME_state *s) {
-    int i = s->joint, still;
+    int i = s->joint, still, follows, held, driven;
     double travel, wanted, loss, drag, by_loss, by_drag, worse;
     if (s->count < CONST_SPLIT) return;
     if (s->suspect) {
@@ -230,6 +236,9 @@ static void decide(NAME_state *s) {
     drag = larger(0, -s->rs / larger(s->ss, 1e-12));
     by_loss = s->tt > 0 ? s->rr + 2 * loss * s->rt + loss * loss * s->tt : HUGE_VAL;
     by_drag = s->rr + 2 * drag * s->rs + drag * drag * s->ss;
+    follows = s->behind < tracking_bound[i];
+    held = follows && fabs(s->whole - 2 * s->first) < CONST_STEADY * fabs(s->first);
+    driven = coulomb[i] > 0 && s->rs + s->ts > CONST_DRIVEN * coulomb[i] * s->ss;
     worse = (by_drag - by_loss) / ((double)s->some * (CONST_SCALE * torque_bound[i]) * (CONST_SCALE * torque_bound[i]));
     if (still && s->asked >= CONST_TIMES * coulomb[i]) {
         if (loss > CONST_LEAST && loss < CONST_MOST && s->least < CONST_TIMES * coulomb[i])
@@ -240,6 +249,9 @@ static void decide(NAME_state *s) {
         answer(s, i, GUARD_UNKNOWN, -1);
     } else if (fabs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] == 0)) {
         answer(s, i, GUARD_SLUGGISH, loss);
+    } else if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i]
+                         : driven && loss > CONST_ALL && (held || (follows && s->latest < torque_bound[i]))) {
+        answer(s, -1, GUARD_CONTACT, -1);
     } else if (worse < 0) {
         answer(s, i, GUARD_FRICTION, -1);
     } else if (loss > CONST_ALL || (loss > CONST_LEAST && s->behind > CONST_AWAY * tracking_bound[i])) {
@@ -256,7 +268,7 @@ void NAME_rearm(NAME_state *s) {
         s->left[k] = s->out[k] ? HUGE_VAL : 0;
     }
     s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
-    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->verdict.time = 0;
+    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->ts = s->latest = s->whole = s->first = s->verdict.time = 0;
     s->count = s->poses = s->some = 0;
     s->alarmed = s->torques = s->tool = s->suspect = s->verdict.alarm = 0;
     s->joint = s->told = -1;

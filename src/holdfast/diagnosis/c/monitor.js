@@ -39,7 +39,7 @@ export class Monitor {
     rearm() {
         for (const name of ["overZ", "overY", "size", "residual", "left"]) this[name] = new Float64Array(N);
         for (const name of ["overW", "gap", "lowest", "highest", "wantedLow", "wantedHigh", "asked", "least", "behind"]) this[name] = 0;
-        for (const name of ["rr", "rt", "rs", "tt", "ss", "count", "poses", "some", "push"]) this[name] = 0;
+        for (const name of ["rr", "rt", "rs", "tt", "ss", "ts", "latest", "whole", "first", "count", "poses", "some", "push"]) this[name] = 0;
         this.alarmed = this.torques = this.tool = this.suspect = false;
         this.joint = this.told = -1;
         this.verdict = {alarm: false, time: 0, joint: -1, kind: UNKNOWN, loss: -1};
@@ -162,7 +162,8 @@ export class Monitor {
         for (let i = 0; i < 6; ++i) mean[i] /= this.last.length;
         const length = (i) => Math.sqrt(mean[i] * mean[i] + mean[i + 1] * mean[i + 1] + mean[i + 2] * mean[i + 2]);
         const w = Math.max(length(0) / CONST_POSITION, length(3) / CONST_ANGLE);
-        if (this.seen) this.overW = Math.max(0, this.overW + (w - 1) * (this.cycle - this.seenAt) * DT);
+        const since = Math.min(this.cycle - this.seenAt, CONST_LONGEST);
+        if (this.seen) this.overW = Math.max(0, this.overW + (w - 1) * since * DT);
         this.seen += 1;
         this.seenAt = this.cycle;
         return {w, residual};
@@ -233,6 +234,10 @@ export class Monitor {
             this.rs += r * slip;
             this.tt += low * low;
             this.ss += slip * slip;
+            this.ts += low * slip;
+            this.latest = Math.abs(r);
+            this.whole += r;
+            if (this.some <= CONST_HALF) this.first = this.whole;
         }
     }
 
@@ -280,6 +285,11 @@ export class Monitor {
         }
         if (!(tt > 0) || !(Math.min(byLoss, byDrag) < 0.5 * rr)) return this.#answer(i, UNKNOWN, -1);
         if (Math.abs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] === 0)) return this.#answer(i, SLUGGISH, loss);
+        const follows = this.behind < trackingBound[i], over = follows && this.latest < torqueBound[i];
+        const held = follows && Math.abs(this.whole - 2 * this.first) < CONST_STEADY * Math.abs(this.first);
+        const driven = coulomb[i] > 0 && rs + this.ts > CONST_DRIVEN * coulomb[i] * ss;
+        if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i] : driven && loss > CONST_ALL && (held || over))
+            return this.#answer(-1, CONTACT, -1);
         if (worse < 0) return this.#answer(i, FRICTION, -1);
         if (loss > CONST_ALL || (loss > CONST_LEAST && this.behind > CONST_AWAY * trackingBound[i])) return this.#answer(i, LIMP, loss);
         return this.#answer(i, WEAK, loss);

@@ -31,6 +31,7 @@ def to_dict(found: Bounds | Diagnosis) -> dict[str, Any]:
         "uncertainty": v.uncertainty,
         "candidates": list(v.candidates),
         "evidence": list(v.evidence),
+        "not_looked_at_s": [list(gap) for gap in found.gaps],
         "did_not_move_enough": list(found.untold),
         "not_watched": list(found.off),
         "faster_than_calibrated": list(found.beyond),

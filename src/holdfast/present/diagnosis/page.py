@@ -34,6 +34,8 @@ def figures(found: Diagnosis) -> dict[str, Figure]:
                 axes.plot(
                     t, np.maximum(y, _LEAST), color=colour, linewidth=1.6 if blamed else 0.9, label=label, zorder=2 + blamed
                 )
+            for gap in found.gaps:
+                axes.axvspan(*gap, color=style.PALE, linewidth=0)
             axes.axhline(1.0, color=style.INK, linewidth=1.0, linestyle="--")
             if v.alarm:
                 axes.axvline(v.time, color=style.INK, linewidth=1.0)
