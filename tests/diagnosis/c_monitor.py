@@ -109,6 +109,8 @@ def random_record(arm, rng, wrong):
         arms = (frames[:, last + 2, :3, 3] - frames[:, -1, :3, 3])[:, None]  # from the tool to there
         at = jacobian[:, :3].transpose(0, 2, 1) + np.cross(jacobian[:, 3:].transpose(0, 2, 1), arms)
         tau[onset:, : last + 1] -= at @ rng.normal(0, 30, 3)
+    elif wrong == 8:  # a push along its motion that the first joint alone feels
+        tau[onset:, 0] -= rng.uniform(6, 12) * np.sign(rates[onset:, 0].mean())
     elif wrong == 6:  # samples are missing, some in a row: bridged, then for so long that it begins anew
         told[rng.integers(0, CYCLES, 6)] = np.nan
         told[onset : onset + rng.integers(1, 40)] = np.nan
@@ -193,7 +195,7 @@ def compared(arm, program, count, rng, bounds, *, node=False):
     """The largest difference in units of what is compared, verdicts that differ, and kinds that were named; in Node too."""
     monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds, sensors=SENSORS), 0.0, 0, set()
     n = arm.n
-    records = [random_record(arm, rng, k % 8) for k in range(count)]  # each of what can be wrong
+    records = [random_record(arm, rng, k % 9) for k in range(count)]  # each of what can be wrong
     ours = [said_by_python(monitor, record) for record in records]
     pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
     for record, one in zip(records, ours, strict=True):

@@ -35,7 +35,7 @@ def figures(found: Diagnosis) -> dict[str, Figure]:
                     t, np.maximum(y, _LEAST), color=colour, linewidth=1.6 if blamed else 0.9, label=label, zorder=2 + blamed
                 )
             for gap in found.gaps:
-                axes.axvspan(*gap, color=style.PALE, linewidth=0)
+                axes.axvspan(*gap, color=style.PALE, linewidth=0, zorder=4)  # over the lines that lead across
             axes.axhline(1.0, color=style.INK, linewidth=1.0, linestyle="--")
             if v.alarm:
                 axes.axvline(v.time, color=style.INK, linewidth=1.0)
