@@ -143,7 +143,10 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
         moved = [part.frames(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
         true = np.linalg.norm(moved, axis=2)
         pairs = [(part.nearest(q, half, x, wide)[0], part.farthest(q, half, x, wide)[0])]
-        limits, target = [["-0x1.8p+1", "0x1.8p+1"]] * 5, {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None}
+        limits, target = (
+            [["-0x1.8p+1", "0x1.8p+1"]] * 5,
+            {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None},
+        )
         lemmas = [{"link": last - first, "point": [y.hex() for y in end.tolist()], "least": "0x0p+0", "most": "0x1p+0"}]
         document = {"arm": documents._stored(arm), "limits": limits, "locked": -1, "lemmas": lemmas, "task": "position"}
         leaves = distances.Apart(document | {"target": target})

@@ -172,9 +172,7 @@ def test_an_arm_on_a_rail(tmp_path, rng):
         far = np.abs(d)
         (place, _, _), (goal, _, _) = driven.tool(q + d[:7]), driven.tool(h + d[:6:-1])
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
-        left = [
-            faults.chain.bend(3, x[None], faults.chain.whole, y[None])[0] / 6 for x, y in ((far[:7], q), (far[:6:-1], h))
-        ]
+        left = [faults.chain.bend(3, x[None], faults.chain.whole, y[None])[0] / 6 for x, y in ((far[:7], q), (far[:6:-1], h))]
         assert (np.abs(place - goal - line[:3]) <= sum(left) + 1e-12).all()
 
 

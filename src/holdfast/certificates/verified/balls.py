@@ -70,7 +70,9 @@ def ball(x: Balls | Array) -> Balls:
 def times(form: str, a: Balls | Array, b: Balls | Array) -> Balls:
     """A product of arrays, as of ``einsum``, whose sums have at most 64 terms: each is off by less than 65 roundings."""
     a, b = ball(a), ball(b)
-    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-46 * abs(a.at), abs(b.at))))
+    off = np.einsum(form, abs(a.at), b.off * UP + 2.0**-46 * abs(b.at))
+    if a.off.any():
+        off += np.einsum(form, a.off, b.size)
     return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
 
 

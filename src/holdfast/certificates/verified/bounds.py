@@ -97,7 +97,7 @@ class Wrenches(Boxes):
             for part in (slice(0, 3), slice(3, 6))
         )
         others = form.most(half, rest)
-        least = np.maximum(np.nextafter(form.value.low - (form.loss(half) + rest) * UP, -np.inf)[:, k], 0)
+        least = np.maximum(np.nextafter(form.value.low - (form.loss(half)[0] + rest) * UP, -np.inf)[:, k], 0)
         others[:, k] = 0
         high, low = (others**2).sum(axis=1) * ((1 - c) * (1 + c)) * UP, c**2 * least**2 * (1 - 1e-12)
         return np.asarray((high < low) & (least > 1e-100))
@@ -119,20 +119,17 @@ class Wrenches(Boxes):
         inside = all(real(a) <= real(x) <= real(b) for x, (a, b) in zip(q, self._given["joint_box"], strict=True))
         need(inside, "the configuration that was found is outside of the box")
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
-            return self._occurs(configuration(q))
-
-    def _occurs(self, joints: list[Array]) -> tuple[float, float]:
-        moved = self.arm.moved(joints)
-        made = joined(2, moved.axes, moved.columns)[0][:, self.rows].transposed(1, 0)
-        entries = [flint.arb(float(x), float(e)) for x, e in zip(made.at.flat, made.off.flat, strict=True)]
-        jacobian = flint.arb_mat(*made.at.shape, entries)
-        try:
-            solved = (jacobian * jacobian.transpose()).solve(jacobian)
-        except ZeroDivisionError:
-            return 0.0, 1.0
-        kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
-        low, high = ([-above(-x) for x in kept], [above(x) for x in kept])
-        return math.sqrt(max(0.0, min(low))) * (1 - 1e-15), math.sqrt(max(0.0, min(high))) * (1 + 1e-15)
+            moved = self.arm.moved(configuration(q))
+            made = joined(2, moved.axes, moved.columns)[0][:, self.rows].transposed(1, 0)
+            entries = [flint.arb(float(x), float(e)) for x, e in zip(made.at.flat, made.off.flat, strict=True)]
+            jacobian = flint.arb_mat(*made.at.shape, entries)
+            try:
+                solved = (jacobian * jacobian.transpose()).solve(jacobian)
+            except ZeroDivisionError:
+                return 0.0, 1.0
+            kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
+            low, high = max(0.0, -max(above(-x) for x in kept)), max(0.0, min(above(x) for x in kept))
+        return math.sqrt(low) * (1 - 1e-15), math.sqrt(high) * (1 + 1e-15)
 
 
 class Motions(Wrenches):
@@ -152,7 +149,11 @@ class Motions(Wrenches):
     def enough(self, x: Screws, nu: Array, inverse: Array, locks: list[int]) -> Flags:
         """Whether some nu + N (q - q_c) + P s keeps the tool still all over the leaf, and its parts are large enough."""
         nu, half, rows = np.nan_to_num(nu / length(nu)[:, None]), x.half, self.rows
-        u, moves, screw = times("njlb,nl->njb", x.bracket, nu), x.bracket.signed(x.side[:, None, None])[..., rows], x.screw[..., rows]
+        u, moves, screw = (
+            times("njlb,nl->njb", x.bracket, nu),
+            x.bracket.signed(x.side[:, None, None])[..., rows],
+            x.screw[..., rows],
+        )
         slopes = u.signed(x.side[:, None])[:, :, rows].transposed(0, 2, 1)
         follow = np.nan_to_num(-np.einsum("nlb,nbj->nlj", inverse, slopes.at))
         cross = times("njlb,nli->nbij", moves, follow)

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from .balls import UP, Array, Balls, above, crossed, flint, joined, stacked, times
-from .forms import TASKS, need, real
+from .balls import UP, Array, Balls, above, crossed, flint, stacked, times
+from .forms import need, real
 from .tree import Cell
 
 Leaf = tuple[Cell, Any]  # and what shows it
@@ -153,7 +153,9 @@ class Boxes:
 
     def middles(self, cells: Iterable[Cell], first: int = 0) -> list[Array]:
         """Of each axis from ``first`` on, what :func:`turned` gives of the middles, with half widths rounded up, (N, 5)."""
-        return [np.array([self._middle(axis, part) for part in parts]) for axis, parts in enumerate(zip(*cells), first)]
+        return [
+            np.array([self._middle(axis, part) for part in parts]) for axis, parts in enumerate(zip(*cells, strict=True), first)
+        ]
 
     def unproved(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
         """What rejected leaves do not prove of the root box."""

@@ -42,7 +42,7 @@ def nearest(form: Form, linear: int, rest: tuple[Any, Any], half: Array) -> Arra
         e = along / np.sqrt((along**2).sum(axis=1))[:, None] * (1 - 1e-12)
         e = np.where(((e**2).sum(axis=1) < 1 - 1e-13)[:, None], e, 0.0)
         row = form.summed(Balls(e))
-        loss = row.loss(half)[:, 0] + length(e * first) * rest[0] + length(e * ~first) * rest[1]
+        loss = row.loss(half)[0][:, 0] + length(e * first) * rest[0] + length(e * ~first) * rest[1]
         best = np.maximum(best, np.nextafter(row.value.low[:, 0] - loss * UP, -np.inf))
     return best
 
@@ -56,7 +56,7 @@ def span(form: Form, bends: list[Array], half: Array) -> tuple[Array, Array]:
     (one, two, three), d = bends, length(form.value.size)
     second = times("naj,nak->njk", form.slopes, form.slopes) + times("na,najk->njk", form.value, form.second)
     square = Form(form.value, times("na,nak->nk", form.value, form.slopes)[:, None], second[:, None])
-    most = d**2 + 2 * (square.loss(half, gain=True)[:, 0] + (3 * one * two + (d + one) * three) / 6)
+    most = d**2 + 2 * (square.loss(half)[1][:, 0] + (3 * one * two + (d + one) * three) / 6)
     far = np.nextafter(np.sqrt(most * UP), np.inf)
     return nearest(form, 3, (three / 6, 0), half), np.asarray(far)
 

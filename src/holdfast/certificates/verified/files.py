@@ -93,7 +93,8 @@ def _check(document: dict[str, Any]) -> None:
     for key in ("format", "version", "kind", "arm", "task"):  # what the form of the rest depends on
         fit(document.get(key), COMMON[key], key)
     names = [joint["name"] for joint in document["arm"]["joints"]]
-    need(0 < len(names) <= MOST_JOINTS and len(set(names)) == len(names), f"there must be 1 to {MOST_JOINTS} joints of different names")
+    good = 0 < len(names) <= MOST_JOINTS and len(set(names)) == len(names)
+    need(good, f"there must be 1 to {MOST_JOINTS} joints of different names")
     need(all(x.isprintable() and x and len(x) <= 200 for x in names), "joints must have names of 1 to 200 letters to print")
     fit(document, COMMON | _form(document, len(names)), "the certificate")
     _check_values(document)
@@ -108,7 +109,8 @@ def _form(document: dict[str, Any], n: int) -> dict[str, Any]:
     need(turning or kind not in ("structural-zero", "ceiling", "floor"), f"a {kind} is of joints that turn")
     if kind in ("ceiling", "floor"):
         need(task in SIX, f"ceilings and floors are of {' and '.join(SIX)}")
-        return {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "locks": [range(n), ...], "tree": TEXT, "found": [NUMBER, n]}
+        form = {"joint_box": [[NUMBER, 2], n], "threshold": NUMBER, "found": [NUMBER, n]}
+        return form | {"locks": [range(n), ...], "tree": TEXT}
     if kind == "structural-zero":
         need(task == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
         frame = {"rotation": [WHOLE, 4], "origin": [RATIONAL, 3]}
@@ -116,7 +118,8 @@ def _form(document: dict[str, Any], n: int) -> dict[str, Any]:
     need(task in TASKS, f"the task must be one of: {', '.join(TASKS)}")
     if kind == "path":
         count, points = (len(x) if isinstance(x, list) else 0 for x in (document.get("knots"), document.get("points")))
-        need(n <= MOST_TURNING and 2 <= count <= MOST_SEGMENTS + 1, f"a path has at most {MOST_SEGMENTS} segments and {MOST_TURNING} joints")
+        good = n <= MOST_TURNING and 2 <= count <= MOST_SEGMENTS + 1
+        need(good, f"a path has from 1 to {MOST_SEGMENTS} segments, and {MOST_TURNING} joints at most")
         instant, follow = range((count - 1) * SEGMENT + 1), [range(n), n - 1 - sum(TASKS[task][:2])]
         never = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT}, ...]
         lock = {"joint": range(n), "followers": follow, "refutations": never}
@@ -148,9 +151,8 @@ def _check_values(document: dict[str, Any]) -> None:
     need(locked and locked == sorted(set(locked)), "locks must be in order, each once")
     if document.get("angle"):
         within([document["angle"]], [limits[document["locked"]]], "angle")
-    if "target" in document:
-        box = document["target"]["box"]
-        within(box, [["-inf", "inf"]] * len(box), "box of the target")
+    box = document["target"]["box"] if "target" in document else []
+    within(box, [["-inf", "inf"]] * len(box), "box of the target")
     need(1e-6 <= real(document.get("threshold", "0x1p-1")) < 1, "threshold must be from 1e-6 to 1")
     need(all(any(int(x) for x in frame["rotation"]) for frame in document.get("snapped", [])), "a quaternion is 0")
     if kind == "path":

@@ -85,34 +85,25 @@ class Faults(Motion):
         Any numbers will do. Of a turned cell the path is followed along the tangent of the locked arm's motion, and the place
         on it is one more of what the section moves.
         """
-        count, tube, m, free = len(slope), len(self.tube), self.m, [k for k in range(self.n) if k not in still]
-        locked, path = rates
-        own = np.zeros((count, len(free) + 1, 2 + tube + m))
-        own[:, -1, 1] = 1
-        jacobian, drift = np.nan_to_num(slope[:, :, free]), np.nan_to_num(slope[:, :, still[0]] * locked.at[:, [still[0]]])
-        ahead = np.einsum("nmk,nk->nm", slope[:, :, self.n :], path.at[:, ::-1])
-        ahead = np.nan_to_num(ahead + np.einsum("nmk,nk->nm", slope[:, :, still[1:]], path.at[:, still[1:]]))
-        good = np.abs(np.linalg.det(jacobian)) > 1e-12
-        inverse = np.linalg.inv(np.where(good[:, None, None], jacobian, np.eye(m)))
-        own[:, :-1, 2 + tube :] = inverse
-        if tube:
-            own[:, :-1, 2 : 2 + tube] = inverse
-        own[:, :-1, :2] = -inverse @ np.stack([drift, ahead], axis=2)
+        tube, free, (locked, path) = len(self.tube), [k for k in range(self.n) if k not in still], rates
+        slope, only, follows = np.nan_to_num(slope), np.arange(self.n) == still[0], np.isin(np.arange(2 * self.n), still[1:])
+        driven = joined(1, path, path[:, ::-1]).signed(follows | (np.arange(2 * self.n) >= self.n))
+        jacobian, drift = slope[:, :, free], np.einsum("nmk,nk->nm", slope[:, :, : self.n], locked.at * only)
+        ahead = np.einsum("nmk,nk->nm", slope, driven.at)
+        wide, good = np.concatenate([jacobian, ahead[:, :, None]], axis=2), abs(np.linalg.det(jacobian)) > 1e-12
+        across = np.linalg.inv(np.where(good[:, None, None], jacobian, np.eye(self.m)))
+        tangent = np.pad(-np.einsum("nfm,nm->nf", across, ahead), ((0, 0), (0, 1)), constant_values=1.0)
+        across = np.pad(across, ((0, 0), (0, 1), (0, 0)))
         if turned.any():
-            wide = np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned]
-            tangent, across = np.linalg.svd(wide)[2][:, -1], np.linalg.pinv(wide)
-            tangent *= np.where(tangent[:, -1:] < 0, -1.0, 1.0)
-            beside = (tangent[:, :-1] * locked.at[turned][:, free]).sum(axis=1) + tangent[:, -1]
-            own[turned, :, 0] = tangent * beside[:, None] - (across @ drift[turned][:, :, None])[:, :, 0]
-            own[turned, :, 1] = tangent
-            own[turned, :, 2:] = across
-        at, off = (np.zeros((count, 2 * self.n, 2 + tube + m)) for _ in range(2))
-        at[:, still[0], 0], off[:, still[0], 0] = locked.at[:, still[0]], locked.off[:, still[0]]
-        at[:, free] = own[:, :-1]
-        moved = times("nk,nc->nkc", path, Balls(own[:, -1]))
-        at[:, still[1:]], off[:, still[1:]] = moved.at[:, still[1:]], moved.off[:, still[1:]]
-        at[:, self.n :], off[:, self.n :] = moved.at[:, ::-1], moved.off[:, ::-1]
-        return Balls(np.nan_to_num(at), off), Balls(np.nan_to_num(own))
+            across[turned], most = np.linalg.pinv(wide[turned]), np.linalg.svd(wide[turned])[2][:, -1]
+            tangent[turned] = most * np.where(most[:, -1:] < 0, -1.0, 1.0)
+        beside = turned * ((tangent[:, :-1] * locked.at[:, free]).sum(axis=1) + tangent[:, -1])
+        begin = tangent * beside[:, None] - np.einsum("nfm,nm->nf", across, drift)
+        own = np.concatenate([np.stack([begin, tangent], 2), across[:, :, :tube], across], axis=2)
+        own, moved = np.nan_to_num(own), np.zeros((len(slope), 2 * self.n, own.shape[2]))
+        moved[:, free] = own[:, :-1]
+        lock = times("nk,c->nkc", joined(1, locked.signed(only), path.signed(0)), 1.0 * (np.arange(own.shape[2]) == 0))
+        return times("nk,nc->nkc", driven, own[:, -1]) + lock + moved, Balls(own)
 
     def slopes(self, cells: Inclusion, half: Array) -> Array:
         """(N, m, 1 + m) above the slopes of g - s by the path and by s."""
@@ -182,7 +173,10 @@ class Faults(Motion):
         if turned.any():
             good &= ~turned | self.forward(cells, own, middle - (ends - 1) // SEGMENT - 1)
         here = joined(1, q[:, free], Balls(middle[:, None]))
-        lock = joined(1, _values(locked)[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))), joined(1, rate[:, free], each)
+        lock = (
+            joined(1, _values(locked)[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))),
+            joined(1, rate[:, free], each),
+        )
         return good & self.glued(here, own, w, wide, lock, first, turned)
 
     def glued(

@@ -28,8 +28,8 @@ class Targets(Boxes):
         self.task, self.locked, self.arm = document["task"], document["locked"], Chain(document["arm"], flat)
         self.goal, self.n, self.p = Chain(gantry(document["target"])), self.arm.n, len(document["target"]["axes"])
         self.limits = np.array([[real(x) for x in pair] for pair in document["limits"]])
-        self.targets, self.turning = slice(len(before), len(before) + self.p), self.p - TASKS[self.task][0]
         linear = TASKS[self.task][0]
+        self.targets, self.turning = slice(len(before), len(before) + self.p), self.p - linear
         self.places = [*range(linear)][::-1] + [*range(linear, self.p)][::-1]  # axes of a target, as its chain has them
         self.variables = [*range(linear, self.p), *range(linear)]  # and as an error has them, behind the arm's joints
 

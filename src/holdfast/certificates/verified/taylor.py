@@ -69,16 +69,19 @@ class Form:
         low, high = (np.diagonal(x.low, axis1=2, axis2=3) for x in (self.second, -self.second))
         return low, high
 
-    def loss(self, half: Array, gain: bool = False) -> Array:
-        """Above what the numbers lose, or gain, within half widths (N, V), to second order."""
-        h, own = half[:, None], self.bends[gain]
-        most = np.where(self.steep < own * h, self.steep**2 / (2 * own), self.steep * h - own * h**2 / 2)
-        return np.asarray((most + (self.pairs @ h[..., None])[..., 0] * h).sum(axis=2) * UP + LEAST)
+    def loss(self, half: Array) -> list[Array]:
+        """Above what the numbers lose, and what they gain, within half widths (N, V), to second order."""
+        h, found = half[:, None], list[Array]()
+        both = ((self.pairs @ h[..., None])[..., 0] * h).sum(axis=2)
+        for own in self.bends:
+            most = np.where(self.steep < own * h, self.steep**2 / (2 * own), self.steep * h - own * h**2 / 2)
+            found.append((most.sum(axis=2) + both) * UP + LEAST)
+        return found
 
     def most(self, half: Array, rest: Array) -> Array:
         """Above the sizes of the numbers, with what is left behind second order."""
-        over = np.nextafter(self.value.at + self.value.off, np.inf) + (self.loss(half, gain=True) + rest) * UP
-        under = np.nextafter(self.value.off - self.value.at, np.inf) + (self.loss(half) + rest) * UP
+        (less, more), value = ((x + rest) * UP for x in self.loss(half)), self.value
+        over, under = np.nextafter(value.at + value.off, np.inf) + more, np.nextafter(value.off - value.at, np.inf) + less
         return np.nextafter(np.maximum(over, under), np.inf) + LEAST
 
 
@@ -137,6 +140,8 @@ class Inclusion:
             s[:] = np.where(closed[:, None], s, 1.05 * self.most + 1e-9)
         for _ in range(8):  # as e grows with S, a little more than e(S) is such a box again
             self.closed()
+            if (self.most[closed] > 0.999999 * s[closed]).all():
+                break
             s[:] = np.where(closed[:, None], np.minimum(s, self.most * (1 + 1e-9)), s)
         straight = (error.value.low[:, -1] > STRAIGHT) & (self.angle < MOST_TURNED)
         self.good = closed & self.closed() & (straight | (not error.rotated))

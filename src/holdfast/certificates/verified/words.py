@@ -37,7 +37,9 @@ def _path(document: dict[str, Any], names: list[str]) -> str:
     knots, (first, last), locked = document["knots"], document["during"], [names[one["joint"]] for one in document["locks"]]
     metres, radians = map(real, document["tube"])
     made = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
-    text = f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {made}. For every instant from "
+    text = (
+        f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {made}. For every instant from "
+    )
     text += f"knot {first / SEGMENT!r} to knot {last / SEGMENT!r} at which one of {', '.join(locked)} locks "
     text += f"where it is, one continuous motion within the limits ({spans(names, document['limits'])}) begins there with that "
     text += f"joint at rest and takes the tool along the rest of the {document['task']} path"
@@ -52,7 +54,9 @@ def _target(document: dict[str, Any], names: list[str]) -> str:
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in target["axes"]]
     given = [real(x) for x in target["orientation"] or ()]
     if given:
-        turned = f" and the tool's z axis along {given[2::3]}" if document["task"] == "pointing" else f" and the rotation {given}"
+        turned = (
+            f" and the tool's z axis along {given[2::3]}" if document["task"] == "pointing" else f" and the rotation {given}"
+        )
     turned += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
     text = f"For every {document['task']} target with {spans(axes, target['box'])}{turned}"
     kept = f"configuration within the limits ({spans(names, document['limits'])})"
