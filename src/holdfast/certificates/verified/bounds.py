@@ -149,11 +149,8 @@ class Motions(Wrenches):
     def enough(self, x: Screws, nu: Array, inverse: Array, locks: list[int]) -> Flags:
         """Whether some nu + N (q - q_c) + P s keeps the tool still all over the leaf, and its parts are large enough."""
         nu, half, rows = np.nan_to_num(nu / length(nu)[:, None]), x.half, self.rows
-        u, moves, screw = (
-            times("njlb,nl->njb", x.bracket, nu),
-            x.bracket.signed(x.side[:, None, None])[..., rows],
-            x.screw[..., rows],
-        )
+        moves, screw = x.bracket.signed(x.side[:, None, None])[..., rows], x.screw[..., rows]
+        u = times("njlb,nl->njb", x.bracket, nu)
         slopes = u.signed(x.side[:, None])[:, :, rows].transposed(0, 2, 1)
         follow = np.nan_to_num(-np.einsum("nlb,nbj->nlj", inverse, slopes.at))
         cross = times("njlb,nli->nbij", moves, follow)
