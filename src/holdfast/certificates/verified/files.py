@@ -104,7 +104,8 @@ def _check(document: dict[str, Any]) -> None:
 
 def _form(document: dict[str, Any], n: int) -> dict[str, Any]:
     """What keys an object of its kind has, beside those of all, and what these are."""
-    kind, task, target, locks = (document.get(key) for key in ("kind", "task", "target", "locks"))
+    kind, task, target, locks = str(document["kind"]), str(document["task"]), document.get("target"), document.get("locks")
+    form: dict[str, Any]
     turning = all(joint["type"] == "revolute" for joint in document["arm"]["joints"])
     need(turning or kind not in ("structural-zero", "ceiling", "floor"), f"a {kind} is of joints that turn")
     if kind in ("ceiling", "floor"):
@@ -120,7 +121,7 @@ def _form(document: dict[str, Any], n: int) -> dict[str, Any]:
         count, points = (len(x) if isinstance(x, list) else 0 for x in (document.get("knots"), document.get("points")))
         good = n <= MOST_TURNING and 2 <= count <= MOST_SEGMENTS + 1
         need(good, f"a path has from 1 to {MOST_SEGMENTS} segments, and {MOST_TURNING} joints at most")
-        instant, follow = range((count - 1) * SEGMENT + 1), [range(n), n - 1 - sum(TASKS[task][:2])]
+        instant, follow = range((count - 1) * SEGMENT + 1), [range(n), n - 1 - TASKS[task][0] - TASKS[task][1]]
         never = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT}, ...]
         lock = {"joint": range(n), "followers": follow, "refutations": never}
         lock |= {"cells": TEXT, "centres": TEXT, "proved": SHARE, "refuted": SHARE}
