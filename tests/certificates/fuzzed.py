@@ -61,7 +61,7 @@ class Claimed:
             yaw = np.arctan2(turn[:, 1, 0], turn[:, 0, 0]) - u[:, 2]
             return np.column_stack([off, np.arctan2(np.sin(yaw), np.cos(yaw))])
         if self.task == "pointing":
-            return np.concatenate([off, turn[:, :, 2] - self.wanted[:, 2]], axis=1)
+            return np.concatenate([off, turn[:, :, 2] @ self.wanted[:, :2]], axis=1)
         if self.task != "pose":
             return off
         wanted = self.wanted if self.wanted is not None else Rotation.from_euler("xyz", u[:, 3:]).as_matrix()
