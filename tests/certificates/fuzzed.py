@@ -30,7 +30,7 @@ class Claimed:
         self.free = np.arange(self.n) != self.locked
         turned = document["target"]["orientation"]
         self.wanted = None if turned is None else np.reshape(_numbers(turned), (3, 3))
-        self.pose = document["task"] == "pose"
+        self.task = document["task"]
         root = np.array([_numbers(p) for p in [*document["target"]["box"], *([document["angle"]] if self.locked >= 0 else [])]])
         tokens = verifier.unpacked(document["tree"], 10**8, "tree")
         cells = [cell for token, cell in verifier.cells(tokens, len(root)) if token == 0]
@@ -55,8 +55,14 @@ class Claimed:
     def error(self, q: Array, u: Array) -> Array:
         """(N, rows) of the tool at q from targets (N, axes)."""
         place, turn = self.tool(q)
-        off = place[:, : min(3, len(self.axes))] - u[:, :3]
-        if not self.pose:
+        linear = sum(axis in "xyz" for axis in self.axes)
+        off = place[:, :linear] - u[:, :linear]
+        if self.task == "planar-pose":
+            yaw = np.arctan2(turn[:, 1, 0], turn[:, 0, 0]) - u[:, 2]
+            return np.column_stack([off, np.arctan2(np.sin(yaw), np.cos(yaw))])
+        if self.task == "pointing":
+            return np.concatenate([off, turn[:, :, 2] @ self.wanted[:, :2]], axis=1)
+        if self.task != "pose":
             return off
         wanted = self.wanted if self.wanted is not None else Rotation.from_euler("xyz", u[:, 3:]).as_matrix()
         return np.concatenate([off, Rotation.from_matrix(turn @ np.swapaxes(wanted, -1, -2)).as_rotvec()], axis=1)

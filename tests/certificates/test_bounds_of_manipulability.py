@@ -17,6 +17,7 @@ from holdfast.certificates import ceiling_claim, documents, floor_claim, verifie
 from holdfast.certificates.joint_boxes.kernels import Floor
 from holdfast.certificates.joint_boxes.wrenches import Ceiling
 from holdfast.certificates.taylor import Chain
+from holdfast.certificates.verified import bounds
 from holdfast.errors import InputError, TaskError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
@@ -83,12 +84,12 @@ def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
                 "arm": documents._stored(arm), "joint_box": documents._hexes(box), "threshold": thresholds[k].hex(),
                 "locks": list(range(n)), "task": "planar-pose" if kind == "planar" else "pose",
             }  # fmt: skip
-            leaves = verifier.Wrenches(document)
+            leaves = bounds.Wrenches(document)
             cell = ((0, 0),) * n
             accepted = [j for j in range(n) if not leaves.rejected([(cell, j)])[1]]
-            assert token < 0 or token - 128 in accepted
+            assert token < 0 or token - bounds.LOCK in accepted
             assert all(true[k, j] <= thresholds[k] for j in accepted)
-            floor = verifier.Motions(document | {"threshold": (low := thresholds[k] / 10).hex()})
+            floor = bounds.Motions(document | {"threshold": (low := thresholds[k] / 10).hex()})
             enough, below.threshold = not floor.rejected([(cell, 0)])[1], low
             assert not enough or least[k] >= low
             assert below(middle[[k]], half[[k]])[0][0] < 0 or enough

@@ -17,7 +17,8 @@ from holdfast.certificates.crew import Effort
 from holdfast.certificates.joint_boxes import exclusion
 from holdfast.certificates.joint_boxes.segments import Segment
 from holdfast.certificates.taylor import Chain
-from holdfast.certificates.verified.balls import Balls
+from holdfast.certificates.verified import distances
+from holdfast.certificates.verified.chain import Chain as VerifiedChain
 from holdfast.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
@@ -143,22 +144,42 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
         moved = [part.frames(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
         true = np.linalg.norm(moved, axis=2)
         pairs = [(part.nearest(q, half, x, wide)[0], part.farthest(q, half, x, wide)[0])]
-        document = {
-            "arm": documents._stored(arm),
-            "limits": [["-0x1.8p+1", "0x1.8p+1"]] * 5,
-            "locked": -1,
-            "lemmas": [],
-            "task": "position",
-        }
-        leaves = verifier.Apart(document | {"target": {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None}})
-        joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
-        seen, lengths = leaves.moved(joints, first, end), leaves.lengths(first, last, end)
-        pairs.append(leaves.span(seen, seen.tip + Balls(-x), lengths, half, wide))
+        limits, target = (
+            [["-0x1.8p+1", "0x1.8p+1"]] * 5,
+            {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None},
+        )
+        lemmas = [{"link": last - first, "point": [y.hex() for y in end.tolist()], "least": "0x0p+0", "most": "0x1p+0"}]
+        document = {"arm": documents._stored(arm), "limits": limits, "locked": -1, "lemmas": lemmas, "task": "position"}
+        leaves = distances.Apart(document | {"target": target})
+        if first:  # the links behind it alone
+            leaves.arm.origins, leaves.arm.turns = leaves.arm.origins[first:], leaves.arm.turns[first:]
+        placed = [
+            np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1)
+            for a, h in zip(np.hstack([q, x]).T, np.hstack([half, wide]).T, strict=True)
+        ]
+        widths = np.stack([joint[:, 2] for joint in placed], axis=1)
+        pairs.append(leaves.span(0, placed[: last - first], placed[last - first :], widths))
         for low, high in pairs:
             assert (low <= true.min(axis=0)).all()
             assert (high >= true.max(axis=0)).all()
             tight.append((low / true.min(axis=0)).max())
     assert np.median(tight) > 0.9
+
+
+@pytest.mark.parametrize("types", ["PRRPR", "RPRP", "RRPR"])
+def test_the_verifier_bounds_distances_of_arms_with_slides(rng, types):
+    """At random points of random boxes: the greatest and the least distance of the tool from a point of the base."""
+    arm = oracles.random_arm(rng, types=types, limits=1.5)
+    chain, half = VerifiedChain(documents._stored(arm)), rng.uniform(0.01, 0.15, (20, arm.n))
+    q, start = rng.uniform(-1, 1, half.shape), rng.uniform(-0.5, 0.5, 3)
+    joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
+    low, high = distances.apart(chain, joints, 0, start, chain.origins[-1], 20)
+    at = q + rng.choice([-1.0, 1.0, 0.3], (200, *half.shape)) * half
+    tools = arm.forward_kinematics(at.reshape(-1, arm.n))[:, :3, 3].reshape(*at.shape[:2], 3)
+    true = np.linalg.norm(tools - start, axis=2)
+    assert (low <= true.min(axis=0)).all()
+    assert (high >= true.max(axis=0)).all()
+    assert np.median(low / true.min(axis=0)) > 0.8 < np.median(true.max(axis=0) / high)
 
 
 # ---- forgers ---------------------------------------------------------------------------------------------------------

@@ -20,6 +20,8 @@ from holdfast.certificates import path_claim, verifier
 from holdfast.certificates.taylor import Chain
 from holdfast.certificates.tool_paths import march
 from holdfast.certificates.tool_paths.forms import Following
+from holdfast.certificates.verified import motions
+from holdfast.certificates.verified.taylor import Error
 from holdfast.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
@@ -162,15 +164,15 @@ def test_an_arm_on_a_rail(tmp_path, rng):
         off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[0]))
         assert off < 1e-6 > beyond
     assert proof.proved > 0.9
-    faults = verifier.motions.Faults(proof.document)
+    faults = motions.Faults(proof.document)
     q, h = start + rng.normal(size=(2, 7)) * 0.05
-    with verifier.flint.ctx.workprec(64):
+    with motions.flint.ctx.workprec(64):
         error, first, second = (x.at for x in between(faults, q, h))
     for d in rng.normal(size=(100, 14)) * 0.1:
         far = np.abs(d)
         (place, _, _), (goal, _, _) = driven.tool(q + d[:7]), driven.tool(h + d[:6:-1])
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
-        left = [faults.chain.third(x[None], faults.lengths, y[None])[0][0] for x, y in ((far[:7], q), (far[:6:-1], h))]
+        left = [faults.chain.bend(3, x[None], faults.chain.whole, y[None])[0] / 6 for x, y in ((far[:7], q), (far[:6:-1], h))]
         assert (np.abs(place - goal - line[:3]) <= sum(left) + 1e-12).all()
 
 
@@ -184,7 +186,7 @@ def test_a_tool_that_points(panda, tmp_path, rng):
     for lock in driven.document["locks"]:
         off, beyond = driven.finished(lock, rng.uniform(0, 2))
         assert off < 1e-6 > beyond
-    faults = verifier.motions.Faults(proof.document)
+    faults = motions.Faults(proof.document)
     (q, h), e = START + rng.normal(size=(2, 7)) * 0.02, 1e-4
     across = driven.tool(h)[1][:, :2].T
 
@@ -192,7 +194,7 @@ def test_a_tool_that_points(panda, tmp_path, rng):
         (place, turn, _), (goal, wanted, _) = driven.tool(q + move[:7]), driven.tool(h + move[:6:-1])
         return np.append(place - goal, across @ (turn - wanted)[:, 2])
 
-    with verifier.flint.ctx.workprec(64):
+    with motions.flint.ctx.workprec(64):
         error, first, second = (x.at for x in between(faults, q, h))
     assert error == pytest.approx(missed(np.zeros(14)), abs=1e-14)
     for a, b in e * np.eye(14)[rng.integers(14, size=(15, 2))]:
@@ -454,16 +456,17 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 
 def between(faults, q, goal):
     """The verifier's form of the error at q from where the tool is at another configuration."""
-    at, wanted = (faults.chain.moved(list(map(verifier.motions.exactly, x[:, None]))) for x in (q, goal))
-    return (x[0, : faults.m] for x in faults.rows.between(at, wanted))
+    joints, places = (list(map(motions.exactly, x[:, None])) for x in (q, goal))
+    error = Error(faults.task, faults.chain, joints, faults.chain, places)
+    return (x[0, : faults.m] for x in (error.value, error.slopes, error.second))
 
 
 def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     """Against differences of what the file says, by scipy's rotations."""
     driven = Driven(moved.write(tmp_path / "a.certificate"))
-    faults = verifier.motions.Faults(moved.document)
+    faults = motions.Faults(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
-    with verifier.flint.ctx.workprec(64):
+    with motions.flint.ctx.workprec(64):
         error, first, second = between(faults, q, h)
 
     def missed(move):
@@ -488,14 +491,14 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
 def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     """The search's bound, and so the verifier's lengths, at random points, with the verifier's second derivatives."""
     proof = hf.certify(path_claim(panda, START + np.array([[0.0], [0.01]]), failures=[1]))
-    faults, chain = verifier.motions.Faults(proof.document), Chain.of(panda)
-    assert (faults.lengths >= chain.lengths).all()
-    assert faults.lengths == pytest.approx(chain.lengths, abs=1e-9)
+    faults, chain = motions.Faults(proof.document), Chain.of(panda)
+    assert (faults.chain.whole >= chain.lengths).all()
+    assert faults.chain.whole == pytest.approx(chain.lengths, abs=1e-9)
     limits = np.column_stack([panda.lower, panda.upper])
     knots, slides = proof.claim.knots, panda.prismatic
     following = Following(chain, knots, "pose", still=[1], tube=np.empty(0), limits=limits, slides=slides)
     q, goal = START[None] + 0.01, START[None]
-    with verifier.flint.ctx.workprec(64):
+    with motions.flint.ctx.workprec(64):
         error, first, second = (x.at for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from written import Chain, place, planar, put, shifted, turn
 
 from holdfast.certificates import verifier
-from holdfast.certificates.verified import files
+from holdfast.certificates.verified import balls, files, targets
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 START = np.radians([0, -10, 0, -110, 0, 100, 45])
@@ -122,16 +122,16 @@ def tightness(rng, chain, q, task, half, *, lock, angle, where, rotation=None, s
         chain, task, np.column_stack([np.subtract(where, half), np.add(where, half)]), [q], locked=lock, angle=angle,
         rotation=rotation,
     )  # fmt: skip
-    leaves = verifier.Leaves(document)
+    leaves = targets.Leaves(document)
     counts = np.round(q * 2**24).astype(int) * (np.arange(n) != lock)
-    with verifier.flint.ctx.workprec(64):
-        joints, axes = leaves.placed([(((0, 0),) * len(leaves.width), counts)])
-        parts = [x[:, : leaves.m] for x in leaves.rows.error(leaves.moved(joints), axes[: leaves.p])]
-        sections = leaves.section(parts[1].at)
-        matrix, bounds = sections[0], leaves.bounds(*parts, sections)
     widths = np.array([float(w) / 2 for w in leaves.width])
-    w = np.concatenate([widths, rng.uniform(0.1, 1, leaves.m) * np.max(half) if section is None else section])
-    e, far, _ = leaves.excess(bounds, np.array([[joint[0, 0] for joint in joints]]), w[None])
+    with balls.flint.ctx.workprec(64), np.errstate(all="ignore"):
+        found, _ = leaves.included([(((0, 0),) * len(leaves.width), counts)])
+        matrix = leaves.section(found.error)[0]
+        w = np.concatenate([widths, rng.uniform(0.1, 1, found.m) * np.max(half) if section is None else section])
+        found.w[:] = w
+        found.closed()
+    e, far = found.most, found.far
     ends = rng.choice([-1.0, 1.0], (300, len(w))) * np.where(rng.random((300, len(w))) < 0.7, 1, rng.random((300, len(w))))
     tight = 0.0
     for step in ends * w:
@@ -139,7 +139,7 @@ def tightness(rng, chain, q, task, half, *, lock, angle, where, rotation=None, s
         assert (np.abs(moved) <= far[0] + 1e-15).all()
         at = chain.tip(q + moved[:n])
         wanted = written.target_pose(document["target"]["axes"], where + step[: len(where)], rotation)
-        g = np.append(at[:3, 3] - wanted[:3, 3], rotation_error(at[:3, :3] @ wanted[:3, :3].T))[: leaves.m]
+        g = np.append(at[:3, 3] - wanted[:3, 3], rotation_error(at[:3, :3] @ wanted[:3, :3].T))[: found.m]
         gap = np.abs(g - step[len(widths) :])
         assert (gap <= e[0] + 1e-12).all()
         tight = max(tight, float((gap / e[0]).max()))
@@ -472,7 +472,7 @@ def test_a_bad_file_gets_one_sentence(locked, tmp_path, forge, said):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(files, "sentence", lambda d: "a claim")
             patch.setattr(verifier, "sentence", lambda d: "a claim")
-            patch.setattr(verifier, "MOST_LEAVES", 1000)
+            patch.setattr(targets, "MOST_LEAVES", 1000)
             with contextlib.suppress(KeyError, ValueError, OverflowError):
                 bad = written.repaired(bad)
             with pytest.raises(verifier.Refused, match=re.escape(said)) as caught:
@@ -505,7 +505,7 @@ def test_no_certificate_at_all(tmp_path, content, said):
 def test_no_file_and_no_flint(tmp_path, monkeypatch):
     with pytest.raises(verifier.Refused, match="cannot read none"):
         verifier.verify(tmp_path / "none")
-    monkeypatch.setattr(verifier, "flint", None)
+    monkeypatch.setattr(balls, "flint", None)
     with pytest.raises(verifier.Refused, match=re.escape("pip install 'holdfast[certify]'")):
         verifier.verify(tmp_path / "none")
 

@@ -8,31 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .forms import need, real
-
 try:
     import flint as flint
 except ImportError:  # told when a file is to be checked: the sentence of a claim needs no balls
     flint = None
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
-
-
-def above(ball: Any) -> float:
-    """A double above a ball."""
-    return math.nextafter(float(ball.upper()), math.inf)
-
-
-def defect(numbers: list[str]) -> float:
-    """Above |R'R - I| (Frobenius): the nearest rotation is nearer than that."""
-    matrix = flint.arb_mat(3, 3, [real(x) for x in numbers])
-    gram = (matrix.transpose() * matrix - flint.arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])).entries()
-    off = math.hypot(*(above(abs(x)) for x in gram)) * UP
-    good = off < 1e-12 and matrix.det() > 0
-    need(good, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
-    return off
 
 
 class Balls:
@@ -48,7 +32,8 @@ class Balls:
     def __neg__(self) -> Balls:
         return Balls(-self.at, self.off)
 
-    def __add__(self, other: Balls) -> Balls:
+    def __add__(self, other: Balls | Array) -> Balls:
+        other = ball(other)
         at = self.at + other.at
         return Balls(at, (self.off + other.off + 2.0**-52 * abs(at)) * UP + LEAST)
 
@@ -59,6 +44,12 @@ class Balls:
     def signed(self, by: Any) -> Balls:
         """Times an array of -1, 0 and 1, which rounds nothing."""
         return Balls(self.at * by, self.off * abs(by))
+
+    def mirrored(self) -> Balls:
+        """Of square matrices, those with what is above the diagonal below it as well."""
+        upper = np.triu(np.ones(self.at.shape[-2:]))
+        half, above = self.signed(upper), self.signed(np.triu(upper, 1))
+        return Balls(half.at + above.at.swapaxes(-1, -2), half.off + above.off.swapaxes(-1, -2))
 
     @property
     def size(self) -> Array:
@@ -71,9 +62,17 @@ class Balls:
         return np.nextafter(self.at - self.off, -np.inf)
 
 
-def times(form: str, a: Balls, b: Balls) -> Balls:
+def ball(x: Balls | Array) -> Balls:
+    """Doubles are the numbers themselves."""
+    return x if isinstance(x, Balls) else Balls(x)
+
+
+def times(form: str, a: Balls | Array, b: Balls | Array) -> Balls:
     """A product of arrays, as of ``einsum``, whose sums have at most 64 terms: each is off by less than 65 roundings."""
-    off = sum(np.einsum(form, x, y) for x, y in ((abs(a.at), b.off), (a.off, b.size), (2.0**-46 * abs(a.at), abs(b.at))))
+    a, b = ball(a), ball(b)
+    off = np.einsum(form, abs(a.at), b.off * UP + 2.0**-46 * abs(b.at))
+    if a.off.any():
+        off += np.einsum(form, a.off, b.size)
     return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
 
 
@@ -92,17 +91,22 @@ def length(x: Array, axis: int = 1) -> Array:
     return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
 
 
-def joined(a: Balls, b: Balls) -> Balls:
-    """Along the last axis."""
-    return Balls(np.concatenate([a.at, b.at], -1), np.concatenate([a.off, b.off], -1))
+def joined(axis: int, *parts: Balls) -> Balls:
+    """One after the other, along an axis."""
+    return Balls(np.concatenate([x.at for x in parts], axis), np.concatenate([x.off for x in parts], axis))
 
 
-def either(which: NDArray[np.bool_], a: Balls, b: Balls) -> Balls:
+def stacked(parts: list[Balls]) -> Balls:
+    """Along a new axis, the second."""
+    return joined(1, *(x[:, None] for x in parts))
+
+
+def either(which: Flags, a: Balls, b: Balls) -> Balls:
     """Rows of the one where ``which`` (N,) says so, else of the other."""
     mask = which.reshape(-1, *[1] * (a.at.ndim - 1))
     return Balls(np.where(mask, a.at, b.at), np.where(mask, a.off, b.off))
 
 
-def stacked(parts: list[Balls], axis: int) -> Balls:
-    """Along a new axis."""
-    return Balls(np.stack([x.at for x in parts], axis), np.stack([x.off for x in parts], axis))
+def above(ball: Any) -> float:
+    """A double above a ball of Arb's."""
+    return math.nextafter(float(ball.upper()), math.inf)

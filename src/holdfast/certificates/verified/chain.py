@@ -1,24 +1,35 @@
-"""The joints of an arm and the tool behind them, for many configurations at once: arrays of balls."""
+"""Chains of joints: an arm, or the target, which is one as well; where many configurations take the tool, and boxes of these.
+
+Three slides and three turns take a tool to any pose. So a target is where the tool of such a chain is, and an arm reaches all
+targets of a box if its tool can be where the other is, wherever the joints of that are.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .balls import UP, Balls, above, crossed, defect, flint, stacked, times
+from .balls import UP, Array, Balls, above, crossed, flint, stacked, times
 from .forms import need, real
+from .tree import Cell
 
-Array = NDArray[np.float64]
+Leaf = tuple[Cell, Any]  # and what shows it
+ONE = [float(k % 4 == 0).hex() for k in range(9)]
 
 
 def rotation(numbers: list[str]) -> Balls:
-    """Nine numbers as balls that hold the nearest rotation."""
-    return Balls(np.reshape([real(x) for x in numbers], (3, 3)), defect(numbers))
+    """Nine numbers as balls that hold the nearest rotation, which is nearer than R'R is to the identity (Frobenius)."""
+    matrix = flint.arb_mat(3, 3, [real(x) for x in numbers])
+    gram = (matrix.transpose() * matrix - flint.arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])).entries()
+    off = math.hypot(*(above(abs(x)) for x in gram)) * UP
+    good = off < 1e-12 and matrix.det() > 0
+    need(good, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
+    return Balls(np.reshape([real(x) for x in numbers], (3, 3)), off)
 
 
 def turned(exact: Fraction) -> list[float]:
@@ -35,12 +46,14 @@ def exactly(values: Array) -> Array:
     return made
 
 
-def about(axis: int, given: Array) -> Balls:
-    """The rotations about a coordinate axis by what :func:`turned` gave, (N, 5)."""
-    i, j, made = (axis + 1) % 3, (axis + 2) % 3, np.zeros((len(given), 3, 3))
-    made[:, axis, axis], made[:, i, i], made[:, j, j] = 1, given[:, 4], given[:, 4]
-    made[:, j, i], made[:, i, j] = given[:, 3], -given[:, 3]
-    return Balls(made, 2.0**-52)
+def gantry(target: dict[str, Any]) -> dict[str, Any]:
+    """The chain of a target: slides along z, y and x, or y and x; then turns by yaw, pitch and roll, or yaw."""
+    axes, first, wanted = target["axes"], [ONE] * ("z" in target["axes"]), target["orientation"] or ONE
+    kinds = ["prismatic"] * sum(axis in "xyz" for axis in axes) + ["revolute"] * sum(axis not in "xyz" for axis in axes)
+    # The cycle of rows of ONE takes z to y, the next y to x, and so on; three are none.
+    frames = [{"rotation": x, "origin": ["0x0p+0"] * 3} for x in (first + [ONE[3:] + ONE[:3]] * 6)[: len(kinds)]]
+    tool = {"rotation": wanted if axes == "xya" else wanted[3:] + wanted[:3], "origin": ["0x0p+0"] * 3}
+    return {"joints": [frame | {"type": kind} for frame, kind in zip(frames, kinds, strict=True)], "tool": tool}
 
 
 @dataclass(frozen=True)
@@ -60,9 +73,9 @@ class Moved:
 
 
 class Chain:
-    """The joints of an arm, about or along the z axes of their frames, and its tool."""
+    """Joints, about or along the z axes of their frames, and the tool behind them."""
 
-    def __init__(self, arm: dict[str, Any], flat: bool) -> None:
+    def __init__(self, arm: dict[str, Any], flat: bool = False) -> None:
         frames, self.n = [*arm["joints"], arm["tool"]], len(arm["joints"])
         self.slides = np.array([joint["type"] == "prismatic" for joint in arm["joints"]])
         self.origins = [np.array([real(x) for x in frame["origin"]]) for frame in frames]
@@ -71,6 +84,7 @@ class Chain:
             good = all(abs(x.at[2, 2]) == 1 and not x.at[2, :2].any() and not x.at[:2, 2].any() for x in self.turns)
             need(good and not self.slides.any(), "a planar task is one of arms that stay in the plane")
             self.origins = [x * [1, 1, 0] for x in self.origins]
+        self.whole = self.lengths(0, self.n)
 
     def moved(self, joints: list[Array], first: int = 0, end: Array | None = None, count: int = 1) -> Moved:
         """Of a point in the frame of the joint behind some that begin with ``first``; the tool point, if none is given.
@@ -81,17 +95,19 @@ class Chain:
         tip, turn = Balls(np.zeros((count, 3))), Balls(np.broadcast_to(np.eye(3), (count, 3, 3)))
         none, axes, places = Balls(np.zeros((count, 0, 3))), [], []
         for k, joint in enumerate(joints, first):
-            tip, turn = tip + times("nij,j->ni", turn, Balls(self.origins[k])), times("nij,jk->nik", turn, self.turns[k])
+            tip, turn = tip + times("nij,j->ni", turn, self.origins[k]), times("nij,jk->nik", turn, self.turns[k])
             axes.append(turn[:, :, 2])
             places.append(tip)
             if self.slides[k]:
                 tip += times("ni,n->ni", axes[-1], Balls(joint[:, 0], joint[:, 1]))
             else:
-                turn = times("nij,njk->nik", turn, about(2, joint))
-        tip += times("nij,j->ni", turn, Balls(end))
+                cosine, sine, still = joint[:, 4], joint[:, 3], np.zeros(count)
+                about = np.array([[cosine, -sine, still], [sine, cosine, still], [still, still, still + 1]])
+                turn = times("nij,njk->nik", turn, Balls(about.transpose(2, 0, 1), 2.0**-52))
+        tip += times("nij,j->ni", turn, end)
         if first + len(joints) == self.n:
             turn = times("nij,jk->nik", turn, self.turns[-1])
-        z, at = (stacked(x, 1) if joints else none for x in (axes, places))
+        z, at = (stacked(x) if joints else none for x in (axes, places))
         slides = self.slides[first : first + len(joints), None]
         spin = z.signed(1.0 * ~slides)
         columns = times("nkij,nkj->nki", crossed(spin), tip[:, None] + -at) + z.signed(1.0 * slides)
@@ -106,16 +122,72 @@ class Chain:
         for k, link in enumerate(links[: last - first]):
             whole = Balls(link * [1, 1, self.slides[first + k]])
             if k + 1 < len(links) and not self.slides[first + k + 1]:
-                whole += times("ij,j->i", self.turns[first + k + 1], Balls(links[k + 1] * [0, 0, 1]))
+                whole += times("ij,j->i", self.turns[first + k + 1], links[k + 1] * [0, 0, 1])
             found[k] = math.hypot(*whole.size) * UP
         return found
 
-    def third(self, far: Array, lengths: Array, out: Array, first: int = 0) -> tuple[Array, Array]:
-        """Above what is left of a point behind second order where joints go ``far`` (N, k), and the angle they turn it by (N,).
+    def bend(self, order: int, far: Array, lengths: Array, out: Array, first: int = 0) -> Array:
+        """Above the length of a derivative of a point along what takes joints ``far`` (N, k) at most, (N,).
 
         ``out`` (N, k): how far slides are out in the middle.
         """
         slides = self.slides[first : first + far.shape[1]]
         c, slid = np.cumsum(far * ~slides, axis=1) * UP, far * slides
-        rest = c**3 * (lengths + np.abs(out) * slides + slid) + 3 * c**2 * slid
-        return rest.sum(axis=1) / 6 * UP, c[:, -1] if c.shape[1] else np.zeros(len(c))
+        each = c**order * (lengths + np.abs(out) * slides + slid) + order * c ** (order - 1) * slid
+        return np.asarray(each.sum(axis=1) * UP)
+
+
+class Boxes:
+    """The axes of a tree, between the ends of its root box, and what its leaves say."""
+
+    targets: slice | None = None  # those of its axes that are of targets
+
+    def __init__(self, document: dict[str, Any], ends: Iterable[Iterable[Any]]) -> None:
+        self._given = {key: value for key, value in document.items() if key not in ("tree", "centres")}
+        numbers = [[Fraction(real(x) if isinstance(x, str) else x) for x in pair] for pair in ends]
+        self.low, self.width = [low for low, _ in numbers], [high - low for low, high in numbers]
+        self._known: dict[tuple[int, int, int], list[float]] = {}
+
+    def __reduce__(self) -> tuple[Any, ...]:  # to another process, whose balls are its own
+        return type(self), (self._given,)
+
+    def middles(self, cells: Iterable[Cell], first: int = 0) -> list[Array]:
+        """Of each axis from ``first`` on, what :func:`turned` gives of the middles, with half widths rounded up, (N, 5)."""
+        return [
+            np.array([self._middle(axis, part) for part in parts]) for axis, parts in enumerate(zip(*cells, strict=True), first)
+        ]
+
+    def unproved(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
+        """What rejected leaves do not prove of the root box."""
+        return [cell for cell, _ in rejected]
+
+    def rejected(self, chunk: list[Leaf]) -> tuple[int, list[Leaf]]:
+        """How many leaves were checked, and those that prove nothing."""
+        bad = list[Leaf]()
+        with flint.ctx.workprec(64), np.errstate(all="ignore"):
+            for kind in sorted({self.kind(leaf) for leaf in chunk}):
+                some = [leaf for leaf in chunk if self.kind(leaf) == kind]
+                bad += [leaf for leaf, good in zip(some, self.proves(kind, some), strict=True) if not good]
+        return len(chunk), bad
+
+    def kind(self, leaf: Leaf) -> Any:
+        """Leaves of one kind are looked at together."""
+        return leaf[1]
+
+    def proves(self, kind: Any, leaves: list[Leaf]) -> Iterable[Any]:
+        """Of leaves of one kind, whether each is true."""
+        raise NotImplementedError
+
+    def _middle(self, axis: int, part: tuple[int, int]) -> list[float]:
+        (k, d), key = part, (axis, *part)
+        if key not in self._known:
+            self._known[key] = turned(self.low[axis] + self.width[axis] * Fraction(2 * k + 1, 2 << d))
+            self._known[key][2] = math.nextafter(float(self.width[axis] / (2 << d)), math.inf)
+        return self._known[key]
+
+
+def configuration(q: list[str]) -> list[Array]:
+    """Joint values, one row for each, as :meth:`Chain.moved` takes them."""
+    values = [real(x) for x in q]
+    need(max(map(abs, values)) < 100, "a configuration turns by more than 100 rad")
+    return [exactly(np.array([x])) for x in values]

@@ -1,10 +1,7 @@
-"""The form of certificates of paths: knots of a healthy motion, slabs of lock instants, and cells behind each."""
+"""What files of paths hold: slabs of lock instants, and cells behind each; and what part of the instants that is."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-import re
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -12,78 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .forms import COMMON, LIMITS, NUMBER, TEXT, fit, need, real, spans, unpacked, within
-from .tree import MOST_LEAVES, SPLIT, Cell, cells
+from .forms import need, real, unpacked
+from .tree import MOST_LEAVES, Cell, cells
 
 Ints = NDArray[np.int64]
 Slab = tuple[int, tuple[int, int], Ints, Ints]  # the lock; its ends; of its cells start, end and half width; their centres
 Never = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
 
 SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
-ROWS = {"planar": "xy", "planar-pose": "xya", "position": "xyz", "pointing": "xyz", "pose": "xyz"}  # axes of a target of each
-FREE = {"planar": 2, "planar-pose": 3, "position": 3, "pointing": 5, "pose": 6}  # joints that the rows of each take
-MOST_SEGMENTS, MOST_CELLS, MOST_TURNING = 1 << 14, 1 << 24, 32
-SHARE = r"\d{1,60}/[1-9]\d{0,60}"
-
-
-def check(document: dict[str, Any]) -> None:
-    """Refuse a document that has not the form of a path."""
-    joints, task = document["arm"]["joints"], document["task"]
-    knots, n = document.get("knots"), len(joints)
-    need(task in ROWS and n <= MOST_TURNING, f"paths are of {', '.join(ROWS)}, and of {MOST_TURNING} joints at most")
-    count, points = len(knots) - 1 if isinstance(knots, list) else 0, document.get("points")
-    need(1 <= count <= MOST_SEGMENTS, f"there must be from 1 to {MOST_SEGMENTS} segments")
-    lock = {
-        "joint": range(n),
-        "followers": [range(n), n - 1 - FREE[task]],
-        "cells": TEXT,
-        "centres": TEXT,
-        "proved": SHARE,
-        "refuted": SHARE,
-        "refutations": [dict.fromkeys(("begin", "stop", "at"), range(count * SEGMENT + 1)) | {"tree": TEXT}, ...],
-    }
-    form: dict[str, Any] = {
-        "knots": [[NUMBER, n], ...],
-        "tube": [NUMBER, 2],
-        "limits": [LIMITS, n],
-        "during": [range(count * SEGMENT + 1), 2],
-        "pairs": [[range(len(points) if isinstance(points, list) else 0), 2], ...],
-        "points": [{"link": range(n + 1), "place": [NUMBER, 3]}, ...],
-    }
-    volumes = {"volumes": dict.fromkeys(COMMON["volumes"], SHARE)}
-    form |= {"unit": re.escape(UNIT.hex()), "locks": [lock, ...]}
-    fit(document, {**COMMON, **form, **volumes}, "the certificate")
-    within(document["limits"], [joint["limits"] for joint in joints], "limits")
-    for knot in knots or ():
-        within([[x, x] for x in knot], document["limits"], "a knot")
-        need(all(abs(real(x)) < 7 for x in knot), "a joint of a knot is beyond 7 rad or m")
-    need(all(0 <= real(x) <= 0.1 for x in document["tube"]), "a tube is from 0 to 0.1 m and rad")
-    need(task != "pointing" or not any(map(real, document["tube"])), "there is no tube around a pointing path")
-    need(len(document["pairs"]) <= SPLIT, f"there are more than {SPLIT} pairs of points")
-    need(document["during"][0] < document["during"][1], "during must not be empty")
-    locked = [lock["joint"] for lock in document["locks"]]
-    need(locked and locked == sorted(set(locked)), "locks must be in order, each once")
-    for lock in document["locks"]:
-        still = [lock["joint"], *lock["followers"]]
-        need(len(set(still)) == len(still), "a joint that is locked, or follows already, does not follow")
-
-
-def sentence(document: dict[str, Any]) -> str:
-    """The claim."""
-    names, knots = [joint["name"] for joint in document["arm"]["joints"]], document["knots"]
-    first, last = (repr(one / SEGMENT) for one in document["during"])
-    metres, radians = map(real, document["tube"])
-    made = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
-    said = (
-        f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {made}. For every instant from "
-    )
-    said += f"knot {first} to knot {last} at which one of {', '.join(names[one['joint']] for one in document['locks'])} locks "
-    said += f"where it is, one continuous motion within the limits ({spans(names, document['limits'])}) begins there with that "
-    said += f"joint at rest and takes the tool along the rest of the {document['task']} path"
-    if metres or radians:
-        off = f" and {radians!r} rad" if "pose" in document["task"] else ""
-        said += f", or along any continuous path that is within {metres!r} m{off} of it and begins on it"
-    return f"{said}; angles in rad, arm {document['arm_digest'][:12]}."
+MOST_CELLS = 1 << 24
 
 
 def share(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> Fraction:

@@ -7,12 +7,37 @@ arm is singular.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
 from .balls import UP
+from .chain import Boxes, Leaf
 from .forms import need, real
+from .tree import Cell
+
+
+class Meeting(Boxes):
+    """Pairs of neighbouring axes, before the joint and behind it: each has the point in common that both name."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        super().__init__(document, [])
+
+    def leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
+        """How many there are, none undecided, and the leaves, each with the later axis."""
+        pairs = [i for i in range(1, len(document["snapped"])) if i not in (document["locked"], document["locked"] + 1)]
+        return len(pairs), [], lambda: (((), i) for i in pairs)
+
+    def unproved(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
+        """Everything, if one is."""
+        return [cell for cell, _ in rejected[:1]]
+
+    def proves(self, kind: int, leaves: list[Leaf]) -> list[bool]:
+        """Whether a pair has."""
+        frame, points = self._given["snapped"][kind], [Fraction(x) for x in self._given["points"]]
+        turn = exact_rotation(map(int, frame["rotation"]))
+        place = [Fraction(x) + row[2] * points[kind] for x, row in zip(frame["origin"], turn, strict=True)]
+        return [place == [0, 0, points[kind - 1]]]
 
 
 def exact_rotation(quaternion: Iterable[int]) -> list[list[Fraction]]:
@@ -36,14 +61,3 @@ def snap(document: dict[str, Any]) -> tuple[float, float]:
         far = sum((Fraction(a) - Fraction(real(b))) ** 2 for a, b in zip(frame["origin"], joint["origin"], strict=True))
         shifted = max(shifted, math.sqrt(far) * UP)
     return turned, shifted
-
-
-def meeting(document: dict[str, Any]) -> tuple[int, int]:
-    """How many pairs of neighbouring axes, before the joint and behind it; how many have the point in common that both name."""
-    n, k, points = len(document["snapped"]), document["locked"], [Fraction(x) for x in document["points"]]
-    pairs, good = [i for i in range(1, n) if i not in (k, k + 1)], 0
-    for i in pairs:
-        turn = exact_rotation(map(int, document["snapped"][i]["rotation"]))
-        place = [Fraction(x) + row[2] * points[i] for x, row in zip(document["snapped"][i]["origin"], turn, strict=True)]
-        good += place == [0, 0, points[i - 1]]
-    return len(pairs), good
