@@ -14,24 +14,15 @@ if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.clearance.clearance import Clearance
 
-CapsulesOption = Annotated[
-    Path | None, typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.", show_default=False)
-]
+CapsulesOption = Annotated[Path | None, typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.")]
 RadiusOption = Annotated[
-    float | None,
-    typer.Option(
-        "--radius", help="Radius, m, along the links. Default: the collision shapes, else assumed.", show_default=False
-    ),
+    float | None, typer.Option("--radius", help="Radius, m, along the links. Default: the collision shapes, else assumed.")
 ]
 MeshesOption = Annotated[
-    Path | None,
-    typer.Option("--meshes", help="Folder in which meshes that the arm's file names are looked for first.", show_default=False),
+    Path | None, typer.Option("--meshes", help="Folder in which meshes that the arm's file names are looked for first.")
 ]
 MarginOption = Annotated[
-    float | None,
-    typer.Option(
-        "--margin", help="Smallest clearance kept, m; from objects beyond the cell's own. Default: 0.", show_default=False
-    ),
+    float | None, typer.Option("--margin", help="Smallest clearance kept, m; from objects beyond the cell's own. Default: 0.")
 ]
 ClearanceOption = Annotated[
     bool | None,
@@ -39,16 +30,13 @@ ClearanceOption = Annotated[
         "--clearance/--no-clearance",
         help="Keep the arm from colliding with itself, or let it. Default: keep it when configurations are chosen, but for "
         "an arm that moves in a plane.",
-        show_default=False,
     ),
 ]
 CellOption = Annotated[
-    Path | None,
-    typer.Option("--cell", help="Cell file (YAML): objects around the arm, which it is kept clear of.", show_default=False),
+    Path | None, typer.Option("--cell", help="Cell file (YAML): objects around the arm, which it is kept clear of.")
 ]
 TouchedCellOption = Annotated[
-    Path | None,
-    typer.Option("--cell", help="Cell file (YAML): objects around the arm; what it touches is said.", show_default=False),
+    Path | None, typer.Option("--cell", help="Cell file (YAML): objects around the arm; what it touches is said.")
 ]
 
 

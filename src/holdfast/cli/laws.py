@@ -14,14 +14,10 @@ if TYPE_CHECKING:
     from holdfast.arm.task import Task
     from holdfast.control.law import Law
 
-TargetOption = Annotated[str, typer.Option("--target", help=TARGET_HELP, show_default=False)]
+TargetOption = Annotated[str, typer.Option("--target", help=TARGET_HELP)]
 TargetsOption = Annotated[
     str,
-    typer.Option(
-        "--target",
-        help=f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200).",
-        show_default=False,
-    ),
+    typer.Option("--target", help=f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200)."),
 ]
 LAW_HELP = f"{LAWS.usage}."
 LawOption = Annotated[str, typer.Option("--law", help=LAW_HELP)]
@@ -33,8 +29,7 @@ LawsOption = Annotated[
 ]
 GainOption = Annotated[float, typer.Option("--gain", help="Feedback gain Ke, per s or per cycle.")]
 SpeedLimitOption = Annotated[
-    float | None,
-    typer.Option("--speed-limit", help="Of the end effector, m/s or m per cycle. Default: none.", show_default=False),
+    float | None, typer.Option("--speed-limit", help="Of the end effector, m/s or m per cycle. Default: none.")
 ]
 CyclesOption = Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")]
 TimeLimitOption = Annotated[

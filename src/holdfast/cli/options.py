@@ -32,17 +32,10 @@ if TYPE_CHECKING:
 
 NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
 
-ArmArgument = Annotated[
-    str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
-]
-BaseOption = Annotated[
-    str | None, typer.Option("--base", help="URDF, MJCF: base link or body. Default: the root.", show_default=False)
-]
+ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).")]
+BaseOption = Annotated[str | None, typer.Option("--base", help="URDF, MJCF: base link or body. Default: the root.")]
 TipOption = Annotated[
-    str | None,
-    typer.Option(
-        "--tip", help="URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger.", show_default=False
-    ),
+    str | None, typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger.")
 ]
 HoldOption = Annotated[
     list[str] | None,
@@ -50,53 +43,44 @@ HoldOption = Annotated[
         "--hold",
         help="URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be "
         "given again.",
-        show_default=False,
     ),
 ]
 FailureOption = Annotated[
-    Path | None,
-    typer.Option("--failure", help="What is locked, has lost range or is slow (YAML file), for --lock.", show_default=False),
+    Path | None, typer.Option("--failure", help="What is locked, has lost range or is slow (YAML file), for --lock.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
-TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
+TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP)]
 TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
 PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 BasesOption = Annotated[
-    list[str] | None,
-    typer.Option("--base", help=f"URDF, MJCF: base link or body, {PER_ARM} Default: the root.", show_default=False),
+    list[str] | None, typer.Option("--base", help=f"URDF, MJCF: base link or body, {PER_ARM} Default: the root.")
 ]
 TipsOption = Annotated[
-    list[str] | None,
-    typer.Option("--tip", help=f"URDF, MJCF: tip link, body or site, {PER_ARM} Default: the only end.", show_default=False),
+    list[str] | None, typer.Option("--tip", help=f"URDF, MJCF: tip link, body or site, {PER_ARM} Default: the only end.")
 ]
 HoldsOption = Annotated[
     list[str] | None,
     typer.Option(
-        "--hold",
-        help=f"URDF, MJCF: JOINT=value, rad or m, at which joints are held for good, separated by commas, {PER_ARM}",
-        show_default=False,
+        "--hold", help=f"URDF, MJCF: JOINT=value, rad or m, at which joints are held for good, separated by commas, {PER_ARM}"
     ),
 ]
 NamesOption = Annotated[
-    list[str] | None,
-    typer.Option("--name", help="What an arm is called, once for each in order ('-' for its own).", show_default=False),
+    list[str] | None, typer.Option("--name", help="What an arm is called, once for each in order ('-' for its own).")
 ]
 QOption = Annotated[
-    list[str],
-    typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
+    list[str], typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.")
 ]
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
 StartDegreesOption = Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")]
-PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)]
+PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
 PathTaskOption = Annotated[
     str | None,
     typer.Option(
         "--task",
         help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
         "moves in a plane), else pose.",
-        show_default=False,
     ),
 ]
 KeepOption = Annotated[
@@ -105,25 +89,19 @@ KeepOption = Annotated[
         "--keep",
         help="upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
         "May be given again.",
-        show_default=False,
     ),
 ]
-DurationOption = Annotated[
-    float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
-]
-MotionCsvOption = Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)]
-PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
-OutOption = Annotated[Path | None, typer.Option("--out", help="Folder for report.html and figures.", show_default=False)]
+DurationOption = Annotated[float | None, typer.Option("--duration", help="Duration, s. Default: the file's.")]
+MotionCsvOption = Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.")]
+PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.")]
+OutOption = Annotated[Path | None, typer.Option("--out", help="Folder for report.html and figures.")]
 SeedOption = Annotated[int, typer.Option("--seed", help="Seed of all random draws.")]
 FailuresOption = Annotated[str, typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'.")]
 
 MOUNTS = {"floor": np.eye(3), "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]), "ceiling": np.diag([1.0, -1, -1])}
 
 GravityOption = Annotated[
-    str | None,
-    typer.Option(
-        "--gravity", help="Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's.", show_default=False
-    ),
+    str | None, typer.Option("--gravity", help="Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's.")
 ]
 MountOption = Annotated[
     str, typer.Option("--mount", help="floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x).")
@@ -133,7 +111,6 @@ PayloadOption = Annotated[
     typer.Option(
         "--payload",
         help="A point mass at the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
-        show_default=False,
     ),
 ]
 

@@ -40,7 +40,6 @@ def command(
             "--vary",
             help="What to vary, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
             "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. May be given again.",
-            show_default=False,
         ),
     ],
     maximise: Annotated[
@@ -53,17 +52,14 @@ def command(
         ),
     ] = "relative-manipulability",
     law: Annotated[
-        str | None,
-        typer.Option("--law", help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.", show_default=False),
+        str | None, typer.Option("--law", help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.")
     ] = None,
     keep_reach: Annotated[
         bool,
         typer.Option("--keep-reach", help="With --maximise convergence or tolerant-workspace: link lengths keep their sum."),
     ] = False,
-    region: Annotated[
-        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
-    ] = None,
-    task: Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)] = None,
+    region: Annotated[Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.")] = None,
+    task: Annotated[str | None, typer.Option("--task", help=TASK_HELP)] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     level: Annotated[
@@ -75,12 +71,9 @@ def command(
     fresh: Annotated[int, typer.Option("--fresh", help="Fresh poses for the final check.")] = 2000,
     seed: SeedOption = 0,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for report, best arm and designs; a stopped search resumes.", show_default=False),
+        Path | None, typer.Option("--out", help="Folder for report, best arm and designs; a stopped search resumes.")
     ] = None,
-    threads: Annotated[
-        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
-    ] = None,
+    threads: Annotated[int | None, typer.Option("--threads", help="Threads. Default: all processors.")] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

@@ -49,16 +49,13 @@ def command(
     arm: ArmArgument,
     path: PathArgument,
     rates: Annotated[
-        Path | None,
-        typer.Option("--rates", help="File with how often each joint locks (YAML). Default: all alike.", show_default=False),
+        Path | None, typer.Option("--rates", help="File with how often each joint locks (YAML). Default: all alike.")
     ] = None,
     mode: Annotated[
         str, typer.Option("--mode", help="on-path, or detour: after a lock the tool may leave its path and come back.")
     ] = "on-path",
     task: PathTaskOption = None,
-    start: Annotated[
-        str | None, typer.Option("--start", help="Where the motion begins, rad and m. Default: anywhere.", show_default=False)
-    ] = None,
+    start: Annotated[str | None, typer.Option("--start", help="Where the motion begins, rad and m. Default: anywhere.")] = None,
     degrees: StartDegreesOption = False,
     samples: Annotated[int, typer.Option("--samples", help="Poses, evenly spaced in time.")] = 101,
     spacing: Annotated[float, typer.Option("--spacing", help="Of the configurations of a pose, rad.")] = 0.05,
@@ -68,7 +65,6 @@ def command(
         typer.Option(
             "--compare",
             help=f"Another motion beside it: least-norm, or what gradient projection serves: {OBJECTIVES}. May be given again.",
-            show_default=False,
         ),
     ] = None,
     inject: Annotated[int, typer.Option("--inject", min=0, help="Try so many locks at random times.")] = 0,

@@ -53,12 +53,9 @@ def command(
         typer.Option(
             "--minimise",
             help=f"What the self-motion makes small: {OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.",
-            show_default=False,
         ),
     ] = None,
-    maximise: Annotated[
-        str | None, typer.Option("--maximise", help="What it makes large: the same choices.", show_default=False)
-    ] = None,
+    maximise: Annotated[str | None, typer.Option("--maximise", help="What it makes large: the same choices.")] = None,
     method: Annotated[
         str,
         typer.Option(
@@ -67,20 +64,14 @@ def command(
         ),
     ] = "gradient-projection",
     task: PathTaskOption = None,
-    q: Annotated[
-        str | None, typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False)
-    ] = None,
+    q: Annotated[str | None, typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.")] = None,
     degrees: DegreesOption = False,
-    gain: Annotated[
-        float | None, typer.Option("--gain", help="Feedback gain. Default: high enough to hardly lag.", show_default=False)
-    ] = None,
+    gain: Annotated[float | None, typer.Option("--gain", help="Feedback gain. Default: high enough to hardly lag.")] = None,
     wanted: Annotated[
-        float | None,
-        typer.Option("--wanted", help="Value the augmented Jacobian keeps. Default: that of the start.", show_default=False),
+        float | None, typer.Option("--wanted", help="Value the augmented Jacobian keeps. Default: that of the start.")
     ] = None,
     rate_cap: Annotated[
-        float | None,
-        typer.Option("--rate-cap", help="Largest norm of the joint rates, rad/s; slows self-motion only.", show_default=False),
+        float | None, typer.Option("--rate-cap", help="Largest norm of the joint rates, rad/s; slows self-motion only.")
     ] = None,
     samples: Annotated[int, typer.Option("--samples", help="Samples over the duration.")] = 501,
     duration: DurationOption = None,
@@ -90,9 +81,7 @@ def command(
     torque_bound: Annotated[
         float | None,
         typer.Option(
-            "--torque-bound",
-            help="N m. How slow must the motion be for torques to stay this close to those of gravity?",
-            show_default=False,
+            "--torque-bound", help="N m. How slow must the motion be for torques to stay this close to those of gravity?"
         ),
     ] = None,
     cell: CellOption = None,
@@ -109,13 +98,9 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for trajectory.csv and report.html.", show_default=False)
-    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for trajectory.csv and report.html.")] = None,
     csv: MotionCsvOption = None,
-    parquet: Annotated[
-        Path | None, typer.Option("--parquet", help="The same as Parquet (needs holdfast[parquet]).", show_default=False)
-    ] = None,
+    parquet: Annotated[Path | None, typer.Option("--parquet", help="The same as Parquet (needs holdfast[parquet]).")] = None,
     json_: JsonOption = False,
 ) -> None:
     """Follow a path with the end effector while the self-motion prepares the arm for a joint failure.

@@ -29,14 +29,10 @@ from holdfast.present.results import drawn, printed
 
 def command(
     arm: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several side by side.", show_default=False
-        ),
+        list[str], typer.Argument(metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several side by side.")
     ],
     region: Annotated[
-        Path | None,
-        typer.Option("--region", help="Region file (YAML). Default: around the home of the first arm.", show_default=False),
+        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the home of the first arm.")
     ] = None,
     task: TaskOption = None,
     failures: FailuresOption = "single",
@@ -46,15 +42,12 @@ def command(
             "--measures",
             help="quantile, fraction-above, self-motion-size or tolerant-workspace; may be given again. Default: all that the "
             "arms have.",
-            show_default=False,
         ),
     ] = None,
     level: Annotated[float, typer.Option("--level", help="Fraction of the poses that have at least a quantile.")] = 0.95,
     thresholds: Annotated[
         list[float] | None,
-        typer.Option(
-            "--thresholds", help="For fraction-above; may be given again. Default: 0.05, 0.1, 0.2, 0.3.", show_default=False
-        ),
+        typer.Option("--thresholds", help="For fraction-above; may be given again. Default: 0.05, 0.1, 0.2, 0.3."),
     ] = None,
     poses: Annotated[int, typer.Option("--poses", help="Poses of the region.")] = 100,
     samples: Annotated[int, typer.Option("--samples", help="Configurations of each arm.")] = 20_000,

@@ -45,15 +45,12 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     minimise: Annotated[
-        str | None,
-        typer.Option("--minimise", help=f"{OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.", show_default=False),
+        str | None, typer.Option("--minimise", help=f"{OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.")
     ] = None,
     maximise: Annotated[
         str | None,
         typer.Option(
-            "--maximise",
-            help="The same choices. Maximising a torque, or minimising an index, gives the worst configuration.",
-            show_default=False,
+            "--maximise", help="The same choices. Maximising a torque, or minimising an index, gives the worst configuration."
         ),
     ] = None,
     pose: Annotated[
@@ -62,19 +59,16 @@ def command(
             "--pose",
             help="Pose of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
             "x,y,z is enough if the task has no orientation. May be given again.",
-            show_default=False,
         ),
     ] = None,
     poses: Annotated[
-        Path | None,
-        typer.Option("--poses", help="CSV file of poses; first line x,y,z,qx,qy,qz,qw (or x,y,z).", show_default=False),
+        Path | None, typer.Option("--poses", help="CSV file of poses; first line x,y,z,qx,qy,qz,qw (or x,y,z).")
     ] = None,
     at: Annotated[
         list[str] | None,
         typer.Option(
             "--at",
             help="The pose of this configuration: joint values, rad and m, separated by commas or spaces. May be given again.",
-            show_default=False,
         ),
     ] = None,
     anywhere: Annotated[
@@ -88,7 +82,6 @@ def command(
         typer.Option(
             "--starts",
             help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere.",
-            show_default=False,
         ),
     ] = None,
     clearance: apart.ClearanceOption = None,
@@ -104,9 +97,7 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
     out: OutOption = None,
-    csv: Annotated[
-        Path | None, typer.Option("--csv", help="Write the configurations to this file.", show_default=False)
-    ] = None,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Write the configurations to this file.")] = None,
     json_: JsonOption = False,
 ) -> None:
     """The best configuration of a pose before a joint fails: the end effector does not move. With --anywhere, of all poses.

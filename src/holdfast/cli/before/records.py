@@ -18,14 +18,13 @@ command = typer.Typer(
     no_args_is_help=True,
 )
 
-NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)]
+NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")]
 
 
 @command.command("list")
 def list_(
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for a page with pictures, and each record as YAML and URDF.", show_default=False),
+        Path | None, typer.Option("--out", help="Folder for a page with pictures, and each record as YAML and URDF.")
     ] = None,
     json_: JsonOption = False,
 ) -> None:
@@ -55,12 +54,10 @@ def new(
     arm: ArmArgument,
     task: Annotated[str, typer.Option("--task", help="planar, position or pose.")] = "pose",
     failures: Annotated[int, typer.Option("--failures", help="Joints that lock at once.")] = 1,
-    at: Annotated[str | None, typer.Option("--at", help="Joint values, rad. Default: zeros.", show_default=False)] = None,
-    name: Annotated[str, typer.Option("--name", help="Id of the record. Default: from the class.", show_default=False)] = "",
+    at: Annotated[str | None, typer.Option("--at", help="Joint values, rad. Default: zeros.")] = None,
+    name: Annotated[str, typer.Option("--name", help="Id of the record. Default: from the class.")] = "",
     by: Annotated[str, typer.Option("--by", help="Who found it.")] = "anonymous",
-    how: Annotated[
-        str, typer.Option("--how", help="How, so that others can follow. Default: not said.", show_default=False)
-    ] = "",
+    how: Annotated[str, typer.Option("--how", help="How, so that others can follow. Default: not said.")] = "",
 ) -> None:
     """Print an arm as a record: a file to check, to keep and to submit.
 
@@ -73,9 +70,7 @@ def new(
 
 @command.command()
 def check(
-    record: Annotated[
-        str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)
-    ] = None,
+    record: Annotated[str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")] = None,
     all_: Annotated[bool, typer.Option("--all", help="All records of the book.")] = False,
     json_: JsonOption = False,
 ) -> None:

@@ -36,7 +36,6 @@ def command(
             "--weights",
             help="effort, worst-case, one number per joint as 1,2,3, or a CSV file of them or of a square matrix. "
             "Default: all joints alike.",
-            show_default=False,
         ),
     ] = None,
     mount: MountOption = "floor",

@@ -27,16 +27,13 @@ from holdfast.present.results import drawn, printed
 
 def command(
     arm: ArmArgument,
-    q: Annotated[str, typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces.", show_default=False)],
-    joint: Annotated[
-        str, typer.Option("--joint", help="The joint that swings free, by name or number from 1.", show_default=False)
-    ],
+    q: Annotated[str, typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces.")],
+    joint: Annotated[str, typer.Option("--joint", help="The joint that swings free, by name or number from 1.")],
     damping: Annotated[
         float | None,
         typer.Option(
             "--damping",
             help="Viscous friction, N m s/rad or N s/m. Default: the joint's own, or 10 % of critical if it has next to none.",
-            show_default=False,
         ),
     ] = None,
     brake: Annotated[
@@ -46,9 +43,7 @@ def command(
     limits: Annotated[
         bool, typer.Option("--limits", help="The joint's limits stop it (those of prismatic joints always do).")
     ] = False,
-    duration: Annotated[
-        float | None, typer.Option("--duration", help="Longest time, s. Default: until it is at rest.", show_default=False)
-    ] = None,
+    duration: Annotated[float | None, typer.Option("--duration", help="Longest time, s. Default: until it is at rest.")] = None,
     cell: TouchedCellOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,

@@ -30,16 +30,13 @@ from holdfast.present.results import drawn, printed
 
 def command(
     arm: ArmArgument,
-    at: Annotated[
-        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
-    ] = None,
+    at: Annotated[str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.")] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
     suspects: Annotated[
-        str | None, typer.Option("--suspects", help="Joints that may be locked, by commas. Default: all.", show_default=False)
+        str | None, typer.Option("--suspects", help="Joints that may be locked, by commas. Default: all.")
     ] = None,
     record: Annotated[
-        Path | None,
-        typer.Option("--record", help="Decide: a record of the motion with the tool's pose (.npz, .csv).", show_default=False),
+        Path | None, typer.Option("--record", help="Decide: a record of the motion with the tool's pose (.npz, .csv).")
     ] = None,
     task: TaskOption = None,
     duration: Annotated[float, typer.Option("--duration", help="Of each leg, at most, s.")] = 5.0,
@@ -48,7 +45,7 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.")] = None,
     plot: PlotOption = None,
     out: OutOption = None,
     json_: JsonOption = False,

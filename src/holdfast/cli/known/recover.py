@@ -42,31 +42,22 @@ def command(
     arm: ArmArgument,
     lock: Annotated[
         list[str] | None,
-        typer.Option(
-            "--lock",
-            help="JOINT=ANGLE (rad or m), or JOINT: it is locked at its value in --at. May be given again.",
-            show_default=False,
-        ),
+        typer.Option("--lock", help="JOINT=ANGLE (rad or m), or JOINT: it is locked at its value in --at. May be given again."),
     ] = None,
     failure: FailureOption = None,
-    at: Annotated[
-        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
-    ] = None,
+    at: Annotated[str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.")] = None,
     goal: Annotated[
         str | None,
         typer.Option(
             "--goal",
             help="home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
             "';'. Default: home; with --path none.",
-            show_default=False,
         ),
     ] = None,
     task: Annotated[
-        str | None, typer.Option("--task", help=f"{TASK_HELP} home and q: then mean the tool's pose there.", show_default=False)
+        str | None, typer.Option("--task", help=f"{TASK_HELP} home and q: then mean the tool's pose there.")
     ] = None,
-    path: Annotated[
-        Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.", show_default=False)
-    ] = None,
+    path: Annotated[Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.")] = None,
     keep: KeepOption = None,
     degrees: Annotated[
         bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
@@ -77,23 +68,20 @@ def command(
     region: Annotated[
         Path | None,
         typer.Option(
-            "--region",
-            help="Region (YAML file) whose remaining part is reported. Default: random poses of the healthy arm.",
-            show_default=False,
+            "--region", help="Region (YAML file) whose remaining part is reported. Default: random poses of the healthy arm."
         ),
     ] = None,
     samples: Annotated[int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips what is left.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
     time_limit: Annotated[
-        float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.", show_default=False)
+        float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.")
     ] = None,
     tolerance: Annotated[
         str | None,
         typer.Option(
             "--tolerance",
             help="By which each row may be missed without harm, for example 1mm,0.5deg: proofs are tried for that too.",
-            show_default=False,
         ),
     ] = None,
     accelerations: Annotated[
@@ -102,7 +90,6 @@ def command(
             "--accelerations",
             help="Limits, rad/s^2 and m/s^2, within which the motion is timed: a number, one per joint, or JOINT=NUMBER by "
             "commas.",
-            show_default=False,
         ),
     ] = None,
     period: Annotated[float, typer.Option("--period", help="s between the rows of a motion timed so.")] = 0.01,
@@ -114,21 +101,19 @@ def command(
     margin: apart.MarginOption = None,
     cell: apart.CellOption = None,
     check: Annotated[
-        Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.", show_default=False)
+        Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.")
     ] = None,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for report.html, recovery.json, waypoints.csv and pictures.", show_default=False),
+        Path | None, typer.Option("--out", help="Folder for report.html, recovery.json, waypoints.csv and pictures.")
     ] = None,
     certificate: Annotated[
         Path | None,
         typer.Option(
             "--certificate",
             help="Write the proof that the goal has no configuration to this file, for holdfast certificate check.",
-            show_default=False,
         ),
     ] = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.", show_default=False)] = None,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.")] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

@@ -36,10 +36,9 @@ if TYPE_CHECKING:
     from holdfast.arm.task import Task
 
 PoseOption = Annotated[
-    str | None,
-    typer.Option("--pose", help="The target as x,y,z,roll,pitch,yaw of the tool, m and degrees.", show_default=False),
+    str | None, typer.Option("--pose", help="The target as x,y,z,roll,pitch,yaw of the tool, m and degrees.")
 ]
-TargetOption = Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)]
+TargetOption = Annotated[str | None, typer.Option("--target", help=TARGET_HELP)]
 
 
 def command(
@@ -62,7 +61,7 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write all points to this file.", show_default=False)] = None,
+    csv: Annotated[Path | None, typer.Option("--csv", help="Write all points to this file.")] = None,
     plot: PlotOption = None,
     out: OutOption = None,
     json_: JsonOption = False,

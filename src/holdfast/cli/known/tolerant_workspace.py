@@ -38,17 +38,14 @@ def command(
     limit: Annotated[
         list[str] | None,
         typer.Option(
-            "--limit",
-            help="JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own.",
-            show_default=False,
+            "--limit", help="JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own."
         ),
     ] = None,
     optimise: Annotated[
         bool, typer.Option("--optimise", help="Find the artificial limits that make the region largest.")
     ] = False,
     rotation: Annotated[
-        str | None,
-        typer.Option("--rotation", help="Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg.", show_default=False),
+        str | None, typer.Option("--rotation", help="Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg.")
     ] = None,
     points: Annotated[int, typer.Option("--points", help="Points in the sample (not for planar arms of three joints).")] = 1000,
     angles: Annotated[int, typer.Option("--angles", help="Locked values tried per joint.")] = 24,

@@ -24,15 +24,11 @@ def _root() -> None:
 @command.command("fail-active")
 def fail_active(
     arm: ArmArgument = "panda",
-    out: Annotated[Path, typer.Option("--out", help="Folder for the cases and results.", show_default=False)] = Path(
-        "fail-active"
-    ),
+    out: Annotated[Path, typer.Option("--out", help="Folder for the cases and results.")] = Path("fail-active"),
     cases: Annotated[
         int, typer.Option("--cases", min=1, help="Cases of each task that reaches a pose; of the others a tenth.")
     ] = 1000,
-    task: Annotated[
-        list[str] | None, typer.Option("--task", help="Only this one; may be given again.", show_default=False)
-    ] = None,
+    task: Annotated[list[str] | None, typer.Option("--task", help="Only this one; may be given again.")] = None,
     planner: Annotated[
         list[str] | None,
         typer.Option(

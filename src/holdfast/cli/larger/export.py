@@ -18,18 +18,13 @@ LANGUAGES = ("c",)
 
 def command(
     arm: ArmArgument,
-    out: Annotated[Path, typer.Option("--out", help="Folder for the files; made if it is not there.", show_default=False)],
+    out: Annotated[Path, typer.Option("--out", help="Folder for the files; made if it is not there.")],
     law: LawOption = "failure-tolerant",
     language: Annotated[str, typer.Option("--language", help="c: C99 that needs only math.h.")] = "c",
-    name: Annotated[
-        str | None, typer.Option("--name", help="Name of the function and the files. Default: the law's.", show_default=False)
-    ] = None,
+    name: Annotated[str | None, typer.Option("--name", help="Name of the function and the files. Default: the law's.")] = None,
     task: TaskOption = None,
     monitor: Annotated[
-        Path | None,
-        typer.Option(
-            "--monitor", help="Bounds of calibrate: also a monitor of joint faults, NAME_monitor.", show_default=False
-        ),
+        Path | None, typer.Option("--monitor", help="Bounds of calibrate: also a monitor of joint faults, NAME_monitor.")
     ] = None,
     controller: Annotated[
         bool,

@@ -23,16 +23,14 @@ command = typer.Typer(
     no_args_is_help=True,
 )
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.", show_default=False)]
-FoldersArgument = Annotated[
-    list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.", show_default=False)
-]
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.")]
+FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.")]
 
 
 @command.command()
 def new(
     file: FileArgument,
-    arm: Annotated[list[str], typer.Option("--arm", help="Built-in name or arm file; may be given again.", show_default=False)],
+    arm: Annotated[list[str], typer.Option("--arm", help="Built-in name or arm file; may be given again.")],
     poses: Annotated[int, typer.Option("--poses", help="Samples of each cell.")] = 2000,
     chunk: Annotated[int, typer.Option("--chunk", help="Samples computed and committed together.")] = 500,
     seed: Annotated[int, typer.Option("--seed", help="The same seed gives the same bits.")] = 0,
@@ -40,8 +38,7 @@ def new(
         list[str] | None, typer.Option("--index", help="May be given again.", show_default="relative-manipulability")
     ] = None,
     law: Annotated[
-        list[str] | None,
-        typer.Option("--law", help="Also maps of convergence under this control law; may be given again.", show_default=False),
+        list[str] | None, typer.Option("--law", help="Also maps of convergence under this control law; may be given again.")
     ] = None,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
     base: BasesOption = None,
@@ -65,9 +62,7 @@ def new(
 @command.command()
 def run(
     file: FileArgument,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results; a stopped study resumes.", show_default=False)
-    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for the results; a stopped study resumes.")] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(
@@ -180,7 +175,7 @@ def merge(
 @command.command()
 def report(
     folders: FoldersArgument,
-    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.")] = None,
     json_: JsonOption = False,
 ) -> None:
     """One HTML page: a table of arms, indices and laws with intervals, distributions side by side, and how it was computed.

@@ -17,7 +17,7 @@ from holdfast.present.teleop.console import show_allocation, show_experiment, sh
 
 DIFFERS = 3  # exit code: it worked, and not every trial came out as it was recorded
 
-FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.", show_default=False)]
+FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.")]
 ProtocolArgument = Annotated[
     str, typer.Argument(metavar="[PROTOCOL]", help="goel2003, goel2003-smooth, or a protocol file (YAML).")
 ]
@@ -31,7 +31,7 @@ command = typer.Typer(
 
 @command.command()
 def run(
-    out: Annotated[Path, typer.Option("--out", help="New folder for the records.", show_default=False)],
+    out: Annotated[Path, typer.Option("--out", help="New folder for the records.")],
     simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
     operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
@@ -128,7 +128,7 @@ def verify(folder: FolderArgument) -> None:
 @command.command()
 def backup(
     folder: FolderArgument,
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.", show_default=False)],
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")],
 ) -> None:
     """Copy the folder of an experiment, also while it is served, and verify the copy.
 
@@ -166,7 +166,7 @@ def allocation(
     subjects: Annotated[
         int | None, typer.Option("--subjects", min=1, help="How many sheets.", show_default="the protocol's number")
     ] = None,
-    out: Annotated[Path | None, typer.Option("--out", help="Write a sheet to print (HTML).", show_default=False)] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Write a sheet to print (HTML).")] = None,
 ) -> None:
     """Print who does which task when and in which order of scenarios, as sheets to tick.
 
@@ -187,11 +187,10 @@ def allocation(
 def subjects(
     folder: FolderArgument,
     drop: Annotated[
-        str | None,
-        typer.Option("--drop", help="This subject will not come back: the row is given to someone else.", show_default=False),
+        str | None, typer.Option("--drop", help="This subject will not come back: the row is given to someone else.")
     ] = None,
     delete: Annotated[
-        str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.", show_default=False)
+        str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.")
     ] = None,
 ) -> None:
     """List the subjects of an experiment and how far their sessions are.
@@ -220,9 +219,7 @@ def subjects(
 @command.command("protocol")
 def protocol_(
     protocol: ProtocolArgument = "goel2003",
-    write: Annotated[
-        Path | None, typer.Option("--write", help="Copy it to this file, to start from.", show_default=False)
-    ] = None,
+    write: Annotated[Path | None, typer.Option("--write", help="Copy it to this file, to start from.")] = None,
 ) -> None:
     """Check a protocol and summarise it.
 

@@ -35,9 +35,7 @@ def tasks(
     task: Annotated[
         str | None, typer.Option("--task", help="What the stick moves: planar or position.", show_default="by the arm")
     ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.", show_default=False)
-    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.")] = None,
     json_: JsonOption = False,
 ) -> None:
     """Draw random tasks, let the computer run each in four scenarios, and select those for an experiment.

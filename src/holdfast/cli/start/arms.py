@@ -41,16 +41,14 @@ def describe(
     tip: TipOption = None,
     hold: HoldOption = None,
     view: Annotated[
-        Path | None, typer.Option("--view", help="Write a page with the arm in 3-D, its joints on sliders.", show_default=False)
+        Path | None, typer.Option("--view", help="Write a page with the arm in 3-D, its joints on sliders.")
     ] = None,
     q: Annotated[
-        str | None,
-        typer.Option("--q", help="With --view: joint values, rad and m. Default: nothing special.", show_default=False),
+        str | None, typer.Option("--q", help="With --view: joint values, rad and m. Default: nothing special.")
     ] = None,
     degrees: DegreesOption = False,
     lock: Annotated[
-        list[str] | None,
-        typer.Option("--lock", help="With --view: a joint that is locked. May be given again.", show_default=False),
+        list[str] | None, typer.Option("--lock", help="With --view: a joint that is locked. May be given again.")
     ] = None,
     json_: JsonOption = False,
 ) -> None:

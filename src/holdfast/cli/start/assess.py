@@ -38,34 +38,22 @@ if TYPE_CHECKING:
 
 FailureRateOption = Annotated[
     list[str] | None,
-    typer.Option(
-        "--failure-rate",
-        help="joint=how often it fails, to weigh what is left after a failure; may be given again.",
-        show_default=False,
-    ),
+    typer.Option("--failure-rate", help="joint=how often it fails, to weigh what is left after a failure; may be given again."),
 ]
 
 
 def command(
     arm: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.", show_default=False
-        ),
+        list[str], typer.Argument(metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.")
     ],
-    region: Annotated[
-        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
-    ] = None,
+    region: Annotated[Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.")] = None,
     index: IndexOption = "relative-manipulability",
-    task: Annotated[
-        list[str] | None, typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False)
-    ] = None,
-    tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP, show_default=False)] = None,
+    task: Annotated[list[str] | None, typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.")] = None,
+    tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP)] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     poses: Annotated[
-        int | None,
-        typer.Option("--poses", help="Number of poses. Default: 2000, or each pose of a list once.", show_default=False),
+        int | None, typer.Option("--poses", help="Number of poses. Default: 2000, or each pose of a list once.")
     ] = None,
     seed: Annotated[int, typer.Option("--seed", help="Seed of all random draws.")] = 0,
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
@@ -75,8 +63,7 @@ def command(
         bool, typer.Option("--after-lock", help="Also find which poses can still be reached once each joint has locked.")
     ] = False,
     lock: Annotated[
-        list[str] | None,
-        typer.Option("--lock", help="JOINT=VALUE, rad or m, at which it locks; may be given again.", show_default=False),
+        list[str] | None, typer.Option("--lock", help="JOINT=VALUE, rad or m, at which it locks; may be given again.")
     ] = None,
     failure_rate: FailureRateOption = None,
     clearance: apart.ClearanceOption = None,
@@ -85,15 +72,9 @@ def command(
     meshes: apart.MeshesOption = None,
     margin: apart.MarginOption = None,
     cell: apart.CellOption = None,
-    at_least: Annotated[
-        list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
-    ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for results and report; a stopped run resumes.", show_default=False)
-    ] = None,
-    threads: Annotated[
-        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
-    ] = None,
+    at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.")] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for results and report; a stopped run resumes.")] = None,
+    threads: Annotated[int | None, typer.Option("--threads", help="Threads. Default: all processors.")] = None,
     base: BasesOption = None,
     tip: TipsOption = None,
     hold: HoldsOption = None,
@@ -181,10 +162,8 @@ def command(
 
 
 def report(
-    folder: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)
-    ],
-    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.")],
+    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.")] = None,
     at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.")] = None,
     failure_rate: FailureRateOption = None,
     json_: JsonOption = False,

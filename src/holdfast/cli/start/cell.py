@@ -20,10 +20,8 @@ command = typer.Typer(
 
 @command.command()
 def check(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.", show_default=False)],
-    arm: Annotated[
-        str | None, typer.Option("--arm", help="Built-in name or arm file: what it touches.", show_default=False)
-    ] = None,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.")],
+    arm: Annotated[str | None, typer.Option("--arm", help="Built-in name or arm file: what it touches.")] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

@@ -41,17 +41,12 @@ def command(
         str, typer.Option("--host", help="Address to listen on. Let other machines in only among people you trust.")
     ] = "127.0.0.1",
     q: Annotated[
-        str | None,
-        typer.Option("--q", help="Joint values, rad and m. Default: near home, in no special place.", show_default=False),
+        str | None, typer.Option("--q", help="Joint values, rad and m. Default: near home, in no special place.")
     ] = None,
     degrees: DegreesOption = False,
     task: TaskOption = None,
-    lock: Annotated[
-        list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.", show_default=False)
-    ] = None,
-    free: Annotated[
-        list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.", show_default=False)
-    ] = None,
+    lock: Annotated[list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.")] = None,
+    free: Annotated[list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.")] = None,
     index: Annotated[str, typer.Option("--index", help="Index shown by the bars.")] = "relative-manipulability",
     susceptibility: Annotated[
         str, typer.Option("--susceptibility", help=f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}.")
@@ -67,23 +62,16 @@ def command(
             show_default="pseudoinverse and failure-tolerant",
         ),
     ] = None,
-    target: Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)] = None,
+    target: Annotated[str | None, typer.Option("--target", help=TARGET_HELP)] = None,
     file: Annotated[
-        str | None,
-        typer.Option("--file", help="A motion that follow, simulate or recover wrote: CSV or folder.", show_default=False),
+        str | None, typer.Option("--file", help="A motion that follow, simulate or recover wrote: CSV or folder.")
     ] = None,
-    region: Annotated[
-        str | None, typer.Option("--region", help="A results folder that assess wrote.", show_default=False)
-    ] = None,
+    region: Annotated[str | None, typer.Option("--region", help="A results folder that assess wrote.")] = None,
     cell: CellOption = None,
     meshes: MeshesOption = None,
     move: Annotated[
         list[str] | None,
-        typer.Option(
-            "--move",
-            help="An object of the cell elsewhere: name=x,y,z[,qx,qy,qz,qw], m. May be given again.",
-            show_default=False,
-        ),
+        typer.Option("--move", help="An object of the cell elsewhere: name=x,y,z[,qx,qy,qz,qw], m. May be given again."),
     ] = None,
     time: Annotated[float, typer.Option("--time", help="Time at which the motion is shown, s.")] = 0.0,
     show: Annotated[

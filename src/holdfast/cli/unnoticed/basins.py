@@ -28,16 +28,11 @@ from holdfast.present.results import drawn, printed
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    lock: Annotated[
-        list[str] | None, typer.Option("--lock", help="JOINT=VALUE, rad or m; may be given again.", show_default=False)
-    ] = None,
+    lock: Annotated[list[str] | None, typer.Option("--lock", help="JOINT=VALUE, rad or m; may be given again.")] = None,
     failure: FailureOption = None,
     starts: Annotated[int, typer.Option("--starts", help="How many random starts.")] = 2000,
     grid: Annotated[
-        int | None,
-        typer.Option(
-            "--grid", help="With two healthy joints, instead: a map of so many by so many starts.", show_default=False
-        ),
+        int | None, typer.Option("--grid", help="With two healthy joints, instead: a map of so many by so many starts.")
     ] = None,
     degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",

@@ -14,19 +14,15 @@ from holdfast.present.results import printed
 
 
 def command(
-    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Records (.npz, .csv or .parquet).", show_default=False)],
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Records (.npz, .csv or .parquet).")],
     arm: ArmOption,
-    out: Annotated[Path, typer.Option("--out", help="File of the bounds (JSON).", show_default=False)],
+    out: Annotated[Path, typer.Option("--out", help="File of the bounds (JSON).")],
     factor: Annotated[
-        float | None,
-        typer.Option(
-            "--factor", help="On the largest healthy residual. Default: 1.5, without torques 2.5.", show_default=False
-        ),
+        float | None, typer.Option("--factor", help="On the largest healthy residual. Default: 1.5, without torques 2.5.")
     ] = None,
     coulomb: Annotated[float, typer.Option("--coulomb", help="Dry friction of each joint, N m (N), if known.")] = 0.0,
     viscous: Annotated[
-        float | None,
-        typer.Option("--viscous", help="Viscous friction, N m s/rad (N s/m). Default: the arm's own.", show_default=False),
+        float | None, typer.Option("--viscous", help="Viscous friction, N m s/rad (N s/m). Default: the arm's own.")
     ] = None,
     fit: Annotated[bool, typer.Option("--fit", help="Fit masses and friction to the records first.")] = False,
     latency: LatencyOption = 0.0,

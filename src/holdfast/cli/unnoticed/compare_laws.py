@@ -44,24 +44,19 @@ def command(
     ] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
     distance: Annotated[
-        str | None,
-        typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False),
+        str | None, typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.")
     ] = None,
     reachable_after: Annotated[
         str | None,
         typer.Option(
             "--reachable-after",
             help="Random motions whose target is still within reach after these failures, as --failures takes them.",
-            show_default=False,
         ),
     ] = None,
     start: Annotated[
-        str | None,
-        typer.Option("--start", help="Instead: one motion from these joint values, rad and m, ...", show_default=False),
+        str | None, typer.Option("--start", help="Instead: one motion from these joint values, rad and m, ...")
     ] = None,
-    target: Annotated[
-        str | None, typer.Option("--target", help="... to this target, given as in 'holdfast simulate'.", show_default=False)
-    ] = None,
+    target: Annotated[str | None, typer.Option("--target", help="... to this target, given as in 'holdfast simulate'.")] = None,
     failures: Annotated[
         str,
         typer.Option(
@@ -81,9 +76,7 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report.html and tables (CSV).", show_default=False)
-    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for report.html and tables (CSV).")] = None,
     json_: JsonOption = False,
 ) -> None:
     """Compare control laws of one arm on the same motions with a joint locked and a controller that does not know it.

@@ -11,16 +11,14 @@ import holdfast as hf
 from holdfast.cli.options import NOT_MET, BaseOption, HoldOption, JsonOption, OutOption, PlotOption, TipOption, read_arm
 from holdfast.present.results import drawn, printed
 
-ArmOption = Annotated[
-    str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
-]
+ArmOption = Annotated[str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).")]
 LatencyOption = Annotated[float, typer.Option("--latency", help="By which the tool's pose is recorded late, s.")]
 
 
 def command(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).", show_default=False)],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).")],
     arm: ArmOption,
-    bounds: Annotated[Path, typer.Option("--bounds", help="File that calibrate wrote.", show_default=False)],
+    bounds: Annotated[Path, typer.Option("--bounds", help="File that calibrate wrote.")],
     latency: LatencyOption = 0.0,
     base: BaseOption = None,
     tip: TipOption = None,

@@ -21,15 +21,11 @@ def _group() -> None:
 
 @command.command()
 def draw(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Faults file (YAML).", show_default=False)],
-    arm: Annotated[
-        str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
-    ],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Faults file (YAML).")],
+    arm: Annotated[str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).")],
     episodes: Annotated[int, typer.Option("--episodes", help="So many, from number 0 on.")] = 1,
-    horizon: Annotated[
-        float | None, typer.Option("--horizon", help="Length of an episode, s. Default: endless.", show_default=False)
-    ] = None,
-    seed: Annotated[int | None, typer.Option("--seed", help="In place of the file's.", show_default=False)] = None,
+    horizon: Annotated[float | None, typer.Option("--horizon", help="Length of an episode, s. Default: endless.")] = None,
+    seed: Annotated[int | None, typer.Option("--seed", help="In place of the file's.")] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

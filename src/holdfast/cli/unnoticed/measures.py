@@ -7,9 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-FolderOption = Annotated[
-    Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.", show_default=False)
-]
+FolderOption = Annotated[Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.")]
 StartsOption = Annotated[
     str | None,
     typer.Option(

@@ -14,12 +14,10 @@ from holdfast.present.results import drawn, printed
 
 
 def command(
-    motion: Annotated[
-        Path, typer.Argument(metavar="MOTION", help="Record (.npz, .csv), or motion as follow writes it.", show_default=False)
-    ],
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="Record (.npz, .csv), or motion as follow writes it.")],
     arm: ArmOption,
     bounds: Annotated[
-        Path | None, typer.Option("--bounds", help="File that calibrate wrote: how soon a lock is noticed.", show_default=False)
+        Path | None, typer.Option("--bounds", help="File that calibrate wrote: how soon a lock is noticed.")
     ] = None,
     base: BaseOption = None,
     tip: TipOption = None,

@@ -15,12 +15,10 @@ from holdfast.present.printing import console, print_written
 
 def command(
     arm: ArmArgument,
-    out: Annotated[Path, typer.Option("--out", help="Folder of the records.", show_default=False)],
+    out: Annotated[Path, typer.Option("--out", help="Folder of the records.")],
     records: Annotated[int, typer.Option("--records", min=1, help="So many, each with a motion of its own.")] = 1,
     duration: Annotated[float, typer.Option("--duration", help="Of each, s.")] = 6.0,
-    faults: Annotated[
-        Path | None, typer.Option("--faults", help="Faults file (YAML); record k is episode k.", show_default=False)
-    ] = None,
+    faults: Annotated[Path | None, typer.Option("--faults", help="Faults file (YAML); record k is episode k.")] = None,
     body: Annotated[int, typer.Option("--body", help="Which robot: records of one have one.")] = 0,
     seed: SeedOption = 0,
     base: BaseOption = None,

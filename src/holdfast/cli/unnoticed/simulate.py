@@ -36,17 +36,11 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    start: Annotated[
-        str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
-    ],
+    start: Annotated[str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.")],
     target: TargetOption,
     lock: Annotated[
         list[str] | None,
-        typer.Option(
-            "--lock",
-            help="JOINT or JOINT@TIME: it locks at the start, or then (s or cycles). May be given again.",
-            show_default=False,
-        ),
+        typer.Option("--lock", help="JOINT or JOINT@TIME: it locks at the start, or then (s or cycles). May be given again."),
     ] = None,
     failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
@@ -63,8 +57,7 @@ def command(
         float, typer.Option("--servo-bandwidth", help="With --physics: bandwidth of the joint servos, Hz.")
     ] = 10.0,
     faults: Annotated[
-        Path | None,
-        typer.Option("--faults", help="Faults file (YAML): what fails when is drawn from it.", show_default=False),
+        Path | None, typer.Option("--faults", help="Faults file (YAML): what fails when is drawn from it.")
     ] = None,
     episode: Annotated[int, typer.Option("--episode", help="With --faults: which episode is drawn, from 0.")] = 0,
     notice: Annotated[
@@ -72,7 +65,6 @@ def command(
         typer.Option(
             "--notice",
             help="With --physics --faults: bounds that calibrate wrote; a monitor names the joint, and the controller reacts.",
-            show_default=False,
         ),
     ] = None,
     cell: TouchedCellOption = None,
@@ -87,10 +79,9 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
     csv: MotionCsvOption = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.")] = None,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for report.html with the arm moving, run.png and run.csv.", show_default=False),
+        Path | None, typer.Option("--out", help="Folder for report.html with the arm moving, run.png and run.csv.")
     ] = None,
     json_: JsonOption = False,
 ) -> None:

@@ -35,9 +35,7 @@ def command(
     lock: Annotated[
         list[str] | None,
         typer.Option(
-            "--lock",
-            help="JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values.",
-            show_default=False,
+            "--lock", help="JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values."
         ),
     ] = None,
     failure: FailureOption = None,
