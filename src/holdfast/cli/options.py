@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,7 +11,6 @@ import typer
 from numpy.typing import NDArray
 
 from holdfast.arms.spec import default_task as default_task
-from holdfast.arms.spec import each_arm as each_arm
 from holdfast.arms.spec import read_hold
 from holdfast.arms.spec import read_task as read_task
 from holdfast.errors import InputError
@@ -29,90 +27,44 @@ if TYPE_CHECKING:
     from holdfast.arm.task import Task
     from holdfast.failures import Degraded
     from holdfast.indices.objective import Objective
+    from holdfast.paths import Path as ToolPath
 
 NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
 
 ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).")]
-BaseOption = Annotated[str | None, typer.Option("--base", help="URDF, MJCF: base link or body. Default: the root.")]
-TipOption = Annotated[
-    str | None, typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger.")
-]
+BaseOption = Annotated[str | None, "URDF, MJCF: base link or body. Default: the root."]
+TipOption = Annotated[str | None, "URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger."]
 HoldOption = Annotated[
     list[str] | None,
-    typer.Option(
-        "--hold",
-        help="URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be "
-        "given again.",
-    ),
+    "URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be "
+    "given again.",
 ]
-FailureOption = Annotated[
-    Path | None, typer.Option("--failure", help="What is locked, has lost range or is slow (YAML file), for --lock.")
-]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
+FailureOption = Annotated[Path | None, "What is locked, has lost range or is slow (YAML file), for --lock."]
+JsonOption = Annotated[bool, "Print JSON for machines."]
 TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
-TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP)]
+TaskOption = Annotated[str | None, TASK_HELP]
 TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
-LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
-PER_ARM = "once for all arms, or once for each in order ('-' for none)."
-BasesOption = Annotated[
-    list[str] | None, typer.Option("--base", help=f"URDF, MJCF: base link or body, {PER_ARM} Default: the root.")
-]
-TipsOption = Annotated[
-    list[str] | None, typer.Option("--tip", help=f"URDF, MJCF: tip link, body or site, {PER_ARM} Default: the only end.")
-]
-HoldsOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--hold", help=f"URDF, MJCF: JOINT=value, rad or m, at which joints are held for good, separated by commas, {PER_ARM}"
-    ),
-]
-NamesOption = Annotated[
-    list[str] | None, typer.Option("--name", help="What an arm is called, once for each in order ('-' for its own).")
-]
-QOption = Annotated[
-    list[str], typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.")
-]
-DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
-StartDegreesOption = Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")]
+LengthOption = Annotated[float, "Characteristic length, m, that divides linear rows."]
+QOption = Annotated[list[str], "Joint values, rad and m, separated by commas or spaces. May be given again."]
+DegreesOption = Annotated[bool, "--q is in degrees (prismatic joints stay in m)."]
+StartDegreesOption = Annotated[bool, "--start is in degrees (prismatic joints stay in m)."]
 PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
 PathTaskOption = Annotated[
     str | None,
-    typer.Option(
-        "--task",
-        help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
-        "moves in a plane), else pose.",
-    ),
+    f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
+    "moves in a plane), else pose.",
 ]
 KeepOption = Annotated[
     list[str] | None,
-    typer.Option(
-        "--keep",
-        help="upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
-        "May be given again.",
-    ),
+    "upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
+    "May be given again.",
 ]
-DurationOption = Annotated[float | None, typer.Option("--duration", help="Duration, s. Default: the file's.")]
-MotionCsvOption = Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.")]
-PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.")]
-OutOption = Annotated[Path | None, typer.Option("--out", help="Folder for report.html and figures.")]
-SeedOption = Annotated[int, typer.Option("--seed", help="Seed of all random draws.")]
-FailuresOption = Annotated[str, typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'.")]
-
-MOUNTS = {"floor": np.eye(3), "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]), "ceiling": np.diag([1.0, -1, -1])}
-
-GravityOption = Annotated[
-    str | None, typer.Option("--gravity", help="Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's.")
-]
-MountOption = Annotated[
-    str, typer.Option("--mount", help="floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x).")
-]
-PayloadOption = Annotated[
-    str | None,
-    typer.Option(
-        "--payload",
-        help="A point mass at the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
-    ),
-]
+DurationOption = Annotated[float | None, "Duration, s. Default: the file's."]
+MotionCsvOption = Annotated[Path | None, "Write the motion to this file."]
+PlotOption = Annotated[Path | None, "Draw into this PNG file."]
+OutOption = Annotated[Path | None, "Folder for report.html and figures."]
+SeedOption = Annotated[int, "Seed of all random draws."]
+FailuresOption = Annotated[str, f"{FAILURES_HELP} or '2; 1+4'."]
 
 
 def read_arm(spec: str, base: str | None, tip: str | None, hold: list[str] | None = None) -> Arm:
@@ -209,6 +161,11 @@ def check_unit_of_places(arm: Arm, places: NDArray[np.float64], option: str) -> 
         )
 
 
+def check_unit_of_path(arm: Arm, path: ToolPath, option: str) -> None:
+    """The same of the places along a path."""
+    check_unit_of_places(arm, path.pose(np.linspace(0, 1, 21))[:, :3, 3], option)
+
+
 def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") -> NDArray[np.float64]:
     """Joint values separated by commas or spaces; with degrees, of the revolute joints (prismatic ones stay in m)."""
     q = read_numbers(option, text, f"{arm.n} numbers")
@@ -218,26 +175,6 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
     q = np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
     check_unit_of_joints(arm.joints, q.tolist(), option, degrees)
     return q
-
-
-def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
-    """The arm where --mount, --gravity and --payload put it."""
-    from holdfast.arm.machine import Link
-
-    if mount not in MOUNTS:
-        raise InputError(f"--mount '{mount}' is not known; use one of {', '.join(MOUNTS)}")
-    turn = np.eye(4)
-    turn[:3, :3] = MOUNTS[mount]
-    arm = arm.with_base(turn @ arm.base)
-    if gravity is not None:
-        arm = replace(arm, gravity=read_numbers("--gravity", gravity, "3 numbers"))
-    if payload is not None:
-        numbers = read_numbers("--payload", payload, "1 or 4 numbers")
-        if numbers.size not in (1, 4):
-            raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
-        place = numbers[1:] if numbers.size == 4 else np.zeros(3)
-        arm = arm.with_payload(Link(float(numbers[0]), place, np.zeros((3, 3)), name="payload"))
-    return arm
 
 
 def read_weights(option: str, text: str) -> Any:

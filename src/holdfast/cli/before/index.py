@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
+from holdfast.cli.groups import Chain
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     ArmArgument,
-    BaseOption,
     DegreesOption,
     FailuresOption,
-    HoldOption,
     JsonOption,
     LengthOption,
     QOption,
     TaskOption,
-    TipOption,
-    read_arm,
     read_configuration,
     read_failures,
     read_task,
@@ -30,9 +27,7 @@ def command(
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     degrees: DegreesOption = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Evaluate a fault tolerance index at a configuration: per failed joint, the worst one, and the gradient.
@@ -42,7 +37,7 @@ def command(
     from holdfast.indices.index import by_name
     from holdfast.present.indices.console import index_values, show_index
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     configurations = [read_configuration(model, text, degrees) for text in q]
     measure = by_name(index, model, read_task(task, arm, model), failures=read_failures(model, failures), length=length)
     print_each(measure, configurations, json_, index_values, show_index)

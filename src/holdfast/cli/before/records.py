@@ -23,9 +23,7 @@ NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a rec
 
 @command.command("list")
 def list_(
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for a page with pictures, and each record as YAML and URDF.")
-    ] = None,
+    out: Annotated[Path | None, "Folder for a page with pictures, and each record as YAML and URDF."] = None,
     json_: JsonOption = False,
 ) -> None:
     """List all records, with what no arm can beat.
@@ -39,7 +37,7 @@ def list_(
 @command.command()
 def show(
     record: NameArgument,
-    urdf: Annotated[bool, typer.Option("--urdf", help="Its arm as URDF, for simulators, instead.")] = False,
+    urdf: Annotated[bool, "Its arm as URDF, for simulators, instead."] = False,
 ) -> None:
     """Show a record as the file that it is; a submission is such a file.
 
@@ -52,12 +50,12 @@ def show(
 @command.command()
 def new(
     arm: ArmArgument,
-    task: Annotated[str, typer.Option("--task", help="planar, position or pose.")] = "pose",
-    failures: Annotated[int, typer.Option("--failures", help="Joints that lock at once.")] = 1,
-    at: Annotated[str | None, typer.Option("--at", help="Joint values, rad. Default: zeros.")] = None,
-    name: Annotated[str, typer.Option("--name", help="Id of the record. Default: from the class.")] = "",
-    by: Annotated[str, typer.Option("--by", help="Who found it.")] = "anonymous",
-    how: Annotated[str, typer.Option("--how", help="How, so that others can follow. Default: not said.")] = "",
+    task: Annotated[str, "planar, position or pose."] = "pose",
+    failures: Annotated[int, "Joints that lock at once."] = 1,
+    at: Annotated[str | None, "Joint values, rad. Default: zeros."] = None,
+    name: Annotated[str, "Id of the record. Default: from the class."] = "",
+    by: Annotated[str, "Who found it."] = "anonymous",
+    how: Annotated[str, "How, so that others can follow. Default: not said."] = "",
 ) -> None:
     """Print an arm as a record: a file to check, to keep and to submit.
 
@@ -71,7 +69,7 @@ def new(
 @command.command()
 def check(
     record: Annotated[str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")] = None,
-    all_: Annotated[bool, typer.Option("--all", help="All records of the book.")] = False,
+    all_: Annotated[bool, "All records of the book."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Measure a record again, by code that shares nothing with what found it.

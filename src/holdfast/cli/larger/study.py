@@ -10,7 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
-from holdfast.cli.options import BasesOption, HoldsOption, JsonOption, NamesOption, TipsOption, each_arm
+from holdfast.cli.groups import Chains
+from holdfast.cli.options import JsonOption
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.notice import working
@@ -30,21 +31,16 @@ FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR...", help="F
 @command.command()
 def new(
     file: FileArgument,
-    arm: Annotated[list[str], typer.Option("--arm", help="Built-in name or arm file; may be given again.")],
-    poses: Annotated[int, typer.Option("--poses", help="Samples of each cell.")] = 2000,
-    chunk: Annotated[int, typer.Option("--chunk", help="Samples computed and committed together.")] = 500,
-    seed: Annotated[int, typer.Option("--seed", help="The same seed gives the same bits.")] = 0,
+    arm: Annotated[list[str], "Built-in name or arm file; may be given again."],
+    poses: Annotated[int, "Samples of each cell."] = 2000,
+    chunk: Annotated[int, "Samples computed and committed together."] = 500,
+    seed: Annotated[int, "The same seed gives the same bits."] = 0,
     index: Annotated[
         list[str] | None, typer.Option("--index", help="May be given again.", show_default="relative-manipulability")
     ] = None,
-    law: Annotated[
-        list[str] | None, typer.Option("--law", help="Also maps of convergence under this control law; may be given again.")
-    ] = None,
-    optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
-    base: BasesOption = None,
-    tip: TipsOption = None,
-    hold: HoldsOption = None,
-    name: NamesOption = None,
+    law: Annotated[list[str] | None, "Also maps of convergence under this control law; may be given again."] = None,
+    optimise: Annotated[bool, "Also the best configuration of each pose."] = False,
+    chains: Chains = Chains(),
 ) -> None:
     """Write a study file with comments, to edit and run.
 
@@ -54,7 +50,7 @@ def new(
 
     usual = ["relative-manipulability"]
     indices = usual if index is None else index
-    files = each_arm(arm, base, tip, hold, name)
+    files = chains.arms(arm)
     written = write(file, files, poses, chunk, seed, indices, law or [], optimise)
     typer.echo(f"written: {written}")
 
@@ -62,7 +58,7 @@ def new(
 @command.command()
 def run(
     file: FileArgument,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder for the results; a stopped study resumes.")] = None,
+    out: Annotated[Path | None, "Folder for the results; a stopped study resumes."] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(
@@ -75,12 +71,8 @@ def run(
     threads: Annotated[
         int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
     ] = None,
-    part: Annotated[
-        str, typer.Option("--part", help="1/3: only the first of three parts, for machines that share no folder; see merge.")
-    ] = "1/1",
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Say what would be computed, how long it takes and how large it is.")
-    ] = False,
+    part: Annotated[str, "1/3: only the first of three parts, for machines that share no folder; see merge."] = "1/1",
+    dry_run: Annotated[bool, "Say what would be computed, how long it takes and how large it is."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Compute what is missing of a study. Ctrl-C stops after the current chunks; the same command resumes.
@@ -175,7 +167,7 @@ def merge(
 @command.command()
 def report(
     folders: FoldersArgument,
-    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.")] = None,
+    to: Annotated[Path | None, "HTML file. Default: DIR/report.html."] = None,
     json_: JsonOption = False,
 ) -> None:
     """One HTML page: a table of arms, indices and laws with intervals, distributions side by side, and how it was computed.

@@ -31,11 +31,11 @@ command = typer.Typer(
 
 @command.command()
 def run(
-    out: Annotated[Path, typer.Option("--out", help="New folder for the records.")],
-    simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
+    out: Annotated[Path, "New folder for the records."],
+    simulated: Annotated[bool, "With simulated people."] = False,
     operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
-    protocol: Annotated[str, typer.Option("--protocol", help="goel2003, goel2003-smooth, or a file (YAML).")] = "goel2003",
+    protocol: Annotated[str, "goel2003, goel2003-smooth, or a file (YAML)."] = "goel2003",
 ) -> None:
     """Run and record a whole experiment with simulated people, from training to the last rating.
 
@@ -62,15 +62,10 @@ def analyse(
     groups: Annotated[int, typer.Option("--groups", min=2, help="Number of groups of difficulty.")] = 3,
     missing: Annotated[
         str,
-        typer.Option(
-            "--missing",
-            help="If a subject has completed no trial in a cell: refuse, complete (leave out such subjects) or mixed (a "
-            "mixed model of single trials).",
-        ),
+        "If a subject has completed no trial in a cell: refuse, complete (leave out such subjects) or mixed (a "
+        "mixed model of single trials).",
     ] = "refuse",
-    difficulty: Annotated[
-        str, typer.Option("--difficulty", help="Whose CPM the tasks are sorted by: operators (their median) or computer.")
-    ] = "operators",
+    difficulty: Annotated[str, "Whose CPM the tasks are sorted by: operators (their median) or computer."] = "operators",
 ) -> None:
     """Statistics of an experiment: writes DIR/report.html, and every table as CSV beside it.
 
@@ -145,7 +140,7 @@ def backup(
 def export(
     folder: FolderArgument,
     out: Annotated[Path | None, typer.Option("--out", help="Folder for the tables.", show_default="DIR/export")] = None,
-    parquet: Annotated[bool, typer.Option("--parquet", help="Parquet in place of CSV; needs pyarrow.")] = False,
+    parquet: Annotated[bool, "Parquet in place of CSV; needs pyarrow."] = False,
 ) -> None:
     """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol.
 
@@ -166,7 +161,7 @@ def allocation(
     subjects: Annotated[
         int | None, typer.Option("--subjects", min=1, help="How many sheets.", show_default="the protocol's number")
     ] = None,
-    out: Annotated[Path | None, typer.Option("--out", help="Write a sheet to print (HTML).")] = None,
+    out: Annotated[Path | None, "Write a sheet to print (HTML)."] = None,
 ) -> None:
     """Print who does which task when and in which order of scenarios, as sheets to tick.
 
@@ -186,12 +181,8 @@ def allocation(
 @command.command()
 def subjects(
     folder: FolderArgument,
-    drop: Annotated[
-        str | None, typer.Option("--drop", help="This subject will not come back: the row is given to someone else.")
-    ] = None,
-    delete: Annotated[
-        str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.")
-    ] = None,
+    drop: Annotated[str | None, "This subject will not come back: the row is given to someone else."] = None,
+    delete: Annotated[str | None, "Delete this subject and everything recorded, for good."] = None,
 ) -> None:
     """List the subjects of an experiment and how far their sessions are.
 
@@ -219,7 +210,7 @@ def subjects(
 @command.command("protocol")
 def protocol_(
     protocol: ProtocolArgument = "goel2003",
-    write: Annotated[Path | None, typer.Option("--write", help="Copy it to this file, to start from.")] = None,
+    write: Annotated[Path | None, "Copy it to this file, to start from."] = None,
 ) -> None:
     """Check a protocol and summarise it.
 

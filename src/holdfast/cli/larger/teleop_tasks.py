@@ -20,7 +20,7 @@ def tasks(
     per_joint: Annotated[
         int, typer.Option("--per-joint", min=1, help="Tasks in which this joint fails, for each joint.")
     ] = 400,
-    distance: Annotated[float, typer.Option("--distance", help="Distance from start to target, m.")] = 2.0,
+    distance: Annotated[float, "Distance from start to target, m."] = 2.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same tasks.")] = 0,
     select: Annotated[
         int, typer.Option("--select", min=1, help="How many tasks to select, one from each cell as far as possible.")
@@ -35,7 +35,7 @@ def tasks(
     task: Annotated[
         str | None, typer.Option("--task", help="What the stick moves: planar or position.", show_default="by the arm")
     ] = None,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.")] = None,
+    out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Draw random tasks, let the computer run each in four scenarios, and select those for an experiment.

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import Touched
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawsOption, TargetsOption, read_laws, read_places, read_targets
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_arm
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed import measures
 from holdfast.present.results import printed, said
@@ -23,14 +24,9 @@ def command(
     law: LawsOption = None,
     task: TaskOption = None,
     time_limit: measures.MapTimeOption = None,
-    cell: TouchedCellOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
+    touched: Touched = Touched(),
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Find the control law with which an arm reaches its targets most often after an unnoticed lock of any joint.
@@ -39,10 +35,10 @@ def command(
 
     Example: holdfast best-law panda --task position --target 0.5,0.2,0.4 --law pseudoinverse --law failure-tolerant:0.2
     """
-    laws = read_laws(law, read_arm(arm, base, tip, hold), task, arm)
+    laws = read_laws(law, chain.arm(arm), task, arm)
     targets, places = read_targets(laws[0], target), read_places(starts)
-    touched = read_contact_shape(laws[0].arm, capsules, radius, cell, meshes)
+    shape = touched.read(laws[0].arm)
     options: dict[str, Any] = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
     with progress_bar(json_, "runs") as progress:
-        result = hf.best_law(laws, targets, places, progress=progress, clearance=touched, **options)
+        result = hf.best_law(laws, targets, places, progress=progress, clearance=shape, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

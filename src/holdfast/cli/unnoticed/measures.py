@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-FolderOption = Annotated[Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.")]
+FolderOption = Annotated[Path | None, "Folder for report, figures, table and summary."]
 StartsOption = Annotated[
     str | None,
     typer.Option(
@@ -41,15 +41,10 @@ MethodOption = Annotated[
     ),
 ]
 RelativeOption = Annotated[
-    Literal["inside", "whole"],
-    typer.Option(
-        "--relative-to", help="F as a fraction of the part of the path within the joints' ranges, or of the whole path."
-    ),
+    Literal["inside", "whole"], "F as a fraction of the part of the path within the joints' ranges, or of the whole path."
 ]
 MeasureTimeOption = Annotated[float | None, typer.Option("--time-limit", help="Time limit, s.", show_default="2000/gain s")]
-MapStartsOption = Annotated[str, typer.Option("--starts", help="A number of random places, or a lattice as grid:52.")]
-MapConfigurationsOption = Annotated[int, typer.Option("--configurations", help="Motions for each place.")]
+MapStartsOption = Annotated[str, "A number of random places, or a lattice as grid:52."]
+MapConfigurationsOption = Annotated[int, "Motions for each place."]
 MapTimeOption = Annotated[float | None, typer.Option("--time-limit", help="Time limit, s.", show_default="500/gain s")]
-OverOption = Annotated[
-    Literal["starts", "targets"], typer.Option("--over", help="What the places of the map are: starts or targets.")
-]
+OverOption = Annotated[Literal["starts", "targets"], "What the places of the map are: starts or targets."]

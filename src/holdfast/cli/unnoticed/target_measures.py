@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed import measures
 from holdfast.present.results import printed, said
@@ -25,9 +26,7 @@ def command(
     task: TaskOption = None,
     time_limit: measures.MeasureTimeOption = None,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Measure which targets an unnoticed lock puts at risk, averaged over starts.
@@ -38,7 +37,7 @@ def command(
 
     Example: holdfast target-measures panda --task position --target random:50 --out results
     """
-    made = law_of(law, arm, task, base, tip, hold)
+    made = law_of(law, arm, task, chain)
     targets, places = read_targets(made, target), None if starts is None else read_places(starts)
     options: dict[str, Any] = {"points": points, "time_limit": time_limit, "relative_to": relative_to, "seed": seed}
     with progress_bar(json_, "targets") as progress:

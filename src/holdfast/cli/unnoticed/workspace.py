@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, TargetOption, law_of, read_places
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_target
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption, read_target
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed import measures
 from holdfast.present.results import printed, said
@@ -25,9 +26,7 @@ def command(
     task: TaskOption = None,
     time_limit: measures.MeasureTimeOption = None,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Map the starts from which an arm still reaches a target when a joint locks on the way and nobody notices.
@@ -39,7 +38,7 @@ def command(
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
-    made = law_of(law, arm, task, base, tip, hold)
+    made = law_of(law, arm, task, chain)
     goal, places = read_target(made.arm, made.task, target), None if starts is None else read_places(starts)
     store = None if out is None else out / "run"
     options: dict[str, Any] = {

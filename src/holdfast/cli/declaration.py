@@ -1,0 +1,47 @@
+"""What a command declares, as typer takes it.
+
+A parameter whose type is ``Annotated[int, "What it is for."]`` is the option of its name. One whose type is a dataclass is a
+group: the command takes the options that are its fields, at the same place, with the values of its default as theirs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass
+from functools import wraps
+from inspect import Parameter, Signature, signature
+from typing import Annotated, Any, get_args, get_type_hints
+
+import typer
+
+
+def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The command with each option on its own, declared by ``typer.Option``."""
+    if hasattr(command, "__signature__"):  # it is that already
+        return command
+    options, groups = list[Parameter](), dict[str, tuple[Any, list[str]]]()
+    for each in signature(command, eval_str=True).parameters.values():
+        group = each.annotation
+        if not is_dataclass(group):
+            options.append(_option(each.name, group, each.default))
+            continue
+        hints = get_type_hints(group, include_extras=True)
+        groups[each.name] = group, [field.name for field in fields(group)]
+        options += [_option(name, hints[name], getattr(each.default, name)) for name in groups[each.name][1]]
+
+    @wraps(command)
+    def whole(**given: Any) -> Any:
+        for name, (group, names) in groups.items():
+            given[name] = group(**{each: given.pop(each) for each in names})
+        return command(**given)
+
+    whole.__annotations__ = {each.name: each.annotation for each in options}
+    whole.__signature__ = Signature(options)  # type: ignore[attr-defined]
+    return whole
+
+
+def _option(name: str, kind: Any, default: Any) -> Parameter:
+    plain, *about = get_args(kind) or (kind,)
+    if about and isinstance(about[0], str):
+        kind = Annotated[plain, typer.Option(f"--{name.strip('_').replace('_', '-')}", help=about[0])]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind)
