@@ -1,7 +1,8 @@
 """What a command declares, as typer takes it.
 
 A parameter whose type is ``Annotated[int, "What it is for."]`` is the option of its name. One whose type is a dataclass is a
-group: the command takes the options that are its fields, at the same place, with the values of its default as theirs.
+group: the command takes the options that are its fields, at the same place, with the values of its default as theirs, or with
+those of the class if it has none.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
         if not is_dataclass(group):
             options.append(_option(each.name, group, each.default))
             continue
-        hints = get_type_hints(group, include_extras=True)
-        groups[each.name] = group, [field.name for field in fields(group)]
-        options += [_option(name, hints[name], getattr(each.default, name)) for name in groups[each.name][1]]
+        hints, names = get_type_hints(group, include_extras=True), [field.name for field in fields(group)]
+        groups[each.name] = group, names
+        given = group if each.default is Parameter.empty else each.default
+        options += [_option(name, hints[name], getattr(given, name, Parameter.empty)) for name in names]
 
     @wraps(command)
     def whole(**given: Any) -> Any:

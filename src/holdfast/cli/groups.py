@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from holdfast.arms.spec import each_arm
-from holdfast.cli.options import BaseOption, HoldOption, JsonOption, OutOption, PlotOption, TipOption, read_arm, read_numbers
+from holdfast.arms.spec import each_arm, read_hold
+from holdfast.cli.options import JsonOption, OutOption, PlotOption, read_numbers
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 
@@ -26,13 +26,19 @@ _PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 class Chain:
     """What of a file the arm is."""
 
-    base: BaseOption = None
-    tip: TipOption = None
-    hold: HoldOption = None
+    base: Annotated[str | None, "URDF, MJCF: base link or body. Default: the root."] = None
+    tip: Annotated[str | None, "URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger."] = None
+    hold: Annotated[
+        list[str] | None,
+        "URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be given "
+        "again.",
+    ] = None
 
     def arm(self, spec: str) -> Arm:
         """The arm that ``spec`` and these options name."""
-        return read_arm(spec, self.base, self.tip, self.hold)
+        from holdfast import arms
+
+        return arms.resolve(spec, self.base, self.tip, hold=read_hold(",".join(self.hold)) if self.hold else None)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ import typer
 from numpy.typing import NDArray
 
 from holdfast.arms.spec import default_task as default_task
-from holdfast.arms.spec import read_hold
 from holdfast.arms.spec import read_task as read_task
 from holdfast.errors import InputError
 from holdfast.failures import read_failures as read_failures
@@ -32,13 +31,6 @@ if TYPE_CHECKING:
 NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
 
 ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).")]
-BaseOption = Annotated[str | None, "URDF, MJCF: base link or body. Default: the root."]
-TipOption = Annotated[str | None, "URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger."]
-HoldOption = Annotated[
-    list[str] | None,
-    "URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be "
-    "given again.",
-]
 FailureOption = Annotated[Path | None, "What is locked, has lost range or is slow (YAML file), for --lock."]
 JsonOption = Annotated[bool, "Print JSON for machines."]
 TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
@@ -65,13 +57,6 @@ PlotOption = Annotated[Path | None, "Draw into this PNG file."]
 OutOption = Annotated[Path | None, "Folder for report.html and figures."]
 SeedOption = Annotated[int, "Seed of all random draws."]
 FailuresOption = Annotated[str, f"{FAILURES_HELP} or '2; 1+4'."]
-
-
-def read_arm(spec: str, base: str | None, tip: str | None, hold: list[str] | None = None) -> Arm:
-    """The arm that ARM, --base, --tip and --hold name."""
-    from holdfast import arms
-
-    return arms.resolve(spec, base, tip, hold=read_hold(",".join(hold)) if hold else None)
 
 
 def read_by_joint(

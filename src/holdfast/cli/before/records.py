@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption, read_arm, read_configuration
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption, read_configuration
 from holdfast.errors import InputError
 from holdfast.present.results import printed, printed_each
 
@@ -61,7 +62,7 @@ def new(
 
     Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
     """
-    model = read_arm(arm, None, None)
+    model = Chain().arm(arm)
     q = None if at is None else read_configuration(model, at, False, "--at")
     typer.echo(hf.designs.new_record(model, task, failures, q=q, name=name, by=by, how=how).text, nl=False)
 

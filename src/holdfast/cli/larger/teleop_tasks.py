@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from holdfast.cli.options import JsonOption, read_arm, read_task
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import JsonOption, read_task
 from holdfast.cli.progress import working
 from holdfast.present.results import printed
 
@@ -44,7 +45,7 @@ def tasks(
     """
     from holdfast.teleop import choose_tasks, task_bank
 
-    model = read_arm(arm, None, None)
+    model = Chain().arm(arm)
     rows = _rows(model) if task is None else read_task(task, arm, model)
     with working("running the tasks") as say:
         bank = task_bank(model, per_joint, None, distance=distance, task=rows, seed=seed)
