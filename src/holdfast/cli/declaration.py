@@ -1,8 +1,8 @@
 """What a command declares, as typer takes it.
 
-A parameter whose type is ``Annotated[int, "What it is for."]`` is the option of its name. One whose type is a dataclass is a
-group: the command takes the options that are its fields, at the same place, with the values of its default as theirs, or with
-those of the class if it has none.
+A parameter whose type is ``Annotated[int, "What it is for."]`` is the option of its name; a second text is what the help shows
+as its default. One whose type is a dataclass is a group: the command takes the options that are its fields, at the same place,
+with the values of its default as theirs, or with those of the class if it has none.
 """
 
 from __future__ import annotations
@@ -45,5 +45,6 @@ def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
 def _option(name: str, kind: Any, default: Any) -> Parameter:
     plain, *about = get_args(kind) or (kind,)
     if about and isinstance(about[0], str):
-        kind = Annotated[plain, typer.Option(f"--{name.strip('_').replace('_', '-')}", help=about[0])]
+        shown: Any = {"show_default": about[1]} if about[1:] else {}
+        kind = Annotated[plain, typer.Option(f"--{name.strip('_').replace('_', '-')}", help=about[0], **shown)]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind)

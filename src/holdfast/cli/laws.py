@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from holdfast.cli.options import TARGET_HELP, read_target, read_task
 from holdfast.registry import LAWS
 
@@ -20,17 +18,12 @@ TargetsOption = Annotated[str, f"{TARGET_HELP} Many targets: a lattice (grid:12)
 LAW_HELP = f"{LAWS.usage}."
 LawOption = Annotated[str, LAW_HELP]
 LawsOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--law", help=f"A law to compare: {LAW_HELP} May be given again.", show_default="pseudoinverse and failure-tolerant"
-    ),
+    list[str] | None, f"A law to compare: {LAW_HELP} May be given again.", "pseudoinverse and failure-tolerant"
 ]
 GainOption = Annotated[float, "Feedback gain Ke, per s or per cycle."]
 SpeedLimitOption = Annotated[float | None, "Of the end effector, m/s or m per cycle. Default: none."]
 CyclesOption = Annotated[bool, "Discrete control cycles in place of continuous time."]
-TimeLimitOption = Annotated[
-    float | None, typer.Option("--time-limit", help="Time limit, s or cycles.", show_default="3000/gain s, or 1000 cycles")
-]
+TimeLimitOption = Annotated[float | None, "Time limit, s or cycles.", "3000/gain s, or 1000 cycles"]
 LockDegreesOption = Annotated[bool, "--lock is in degrees (prismatic joints stay in m)."]
 
 

@@ -25,7 +25,7 @@ command = typer.Typer(
 @command.command()
 def check(
     file: FileArgument,
-    sample: Annotated[int | None, typer.Option("--sample", help="Only so many cells, drawn at random.")] = None,
+    sample: Annotated[int | None, "Only so many cells, drawn at random."] = None,
     workers: Annotated[int, "Processes."] = 1,
     json_: JsonOption = False,
 ) -> None:

@@ -108,14 +108,9 @@ def out_of_reach(
 def tolerant(
     arm: ArmArgument,
     targets: Targets,
-    ranges: Annotated[
-        Path | None, typer.Option("--ranges", help="Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m.")
-    ] = None,
+    ranges: Annotated[Path | None, "Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m."] = None,
     range_: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--range", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits."
-        ),
+        list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits."
     ] = None,
     degrees: AnglesOption = False,
     failures: FailuresOption = "single",
@@ -146,7 +141,7 @@ def tolerant(
 @command.command()
 def ceiling(
     arm: ArmArgument,
-    below: Annotated[float, typer.Option("--below", help="Threshold, between 0 and 1.")],
+    below: Annotated[float, "Threshold, between 0 and 1."],
     configurations: Configurations = Configurations(),
     task: RowsOption = "pose",
     degrees: AnglesOption = False,
@@ -179,7 +174,7 @@ def ceiling(
 @command.command()
 def floor(
     arm: ArmArgument,
-    above: Annotated[float, typer.Option("--above", help="Threshold, between 0 and 1.")],
+    above: Annotated[float, "Threshold, between 0 and 1."],
     configurations: Configurations = Configurations(),
     task: RowsOption = "pose",
     degrees: AnglesOption = False,

@@ -22,7 +22,7 @@ def path(
     during: Annotated[str, "When a joint may lock: two parts of the motion."] = "0 1",
     tube: Annotated[str, "How far off the path may be, m, and rad where the tool turns; or one number for both."] = "0",
     task: Annotated[str, "What follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
-    segments: Annotated[int | None, typer.Option("--segments", help="Use so many of the motion. Default: all.")] = None,
+    segments: Annotated[int | None, "Use so many of the motion. Default: all."] = None,
     halvings: Annotated[int, "Of intervals of lock instants, at most."] = 6,
     search: Search = Search(),
     chain: Chain = Chain(),

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 import holdfast as hf
 from holdfast.cli.clearance import Touched
 from holdfast.cli.groups import Chain, Output
@@ -20,10 +18,7 @@ def command(
         float | None,
         "Viscous friction, N m s/rad or N s/m. Default: the joint's own, or 10 % of critical if it has next to none.",
     ] = None,
-    brake: Annotated[
-        list[float] | None,
-        typer.Option("--brake", help="Brakes engage after so many ms. May be given again.", show_default="50, 100 and 200"),
-    ] = None,
+    brake: Annotated[list[float] | None, "Brakes engage after so many ms. May be given again.", "50, 100 and 200"] = None,
     limits: Annotated[bool, "The joint's limits stop it (those of prismatic joints always do)."] = False,
     duration: Annotated[float | None, "Longest time, s. Default: until it is at rest."] = None,
     touched: Touched = Touched(),

@@ -32,11 +32,8 @@ def fail_active(
     task: Annotated[list[str] | None, "Only this one; may be given again."] = None,
     planner: Annotated[
         list[str] | None,
-        typer.Option(
-            "--planner",
-            help="recover, differential-ik, differential-ik-8-starts, rrt-connect or ompl-rrt-connect; may be given again.",
-            show_default="recover",
-        ),
+        "recover, differential-ik, differential-ik-8-starts, rrt-connect or ompl-rrt-connect; may be given again.",
+        "recover",
     ] = None,
     cell: CellOption = None,
     seconds: Annotated[float, "Time limit of a case, on one thread."] = 10.0,

@@ -35,9 +35,7 @@ def new(
     poses: Annotated[int, "Samples of each cell."] = 2000,
     chunk: Annotated[int, "Samples computed and committed together."] = 500,
     seed: Annotated[int, "The same seed gives the same bits."] = 0,
-    index: Annotated[
-        list[str] | None, typer.Option("--index", help="May be given again.", show_default="relative-manipulability")
-    ] = None,
+    index: Annotated[list[str] | None, "May be given again.", "relative-manipulability"] = None,
     law: Annotated[list[str] | None, "Also maps of convergence under this control law; may be given again."] = None,
     optimise: Annotated[bool, "Also the best configuration of each pose."] = False,
     chains: Chains = Chains(),
@@ -61,12 +59,9 @@ def run(
     out: Annotated[Path | None, "Folder for the results; a stopped study resumes."] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option(
-            "--scheduler",
-            help="Compute on Dask: the address of its scheduler (tcp://HOST:8786), its scheduler file, or local:4 for four "
-            "worker processes of this machine.",
-            show_default="threads of this process",
-        ),
+        "Compute on Dask: the address of its scheduler (tcp://HOST:8786), its scheduler file, or local:4 for four "
+        "worker processes of this machine.",
+        "threads of this process",
     ] = None,
     threads: Annotated[
         int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
@@ -145,7 +140,7 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
 @command.command()
 def merge(
     folders: FoldersArgument,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder to merge into.", show_default="the first DIR")] = None,
+    out: Annotated[Path | None, "Folder to merge into.", "the first DIR"] = None,
     json_: JsonOption = False,
 ) -> None:
     """Join folders of one study from machines that shared no folder.

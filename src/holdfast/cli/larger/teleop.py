@@ -139,7 +139,7 @@ def backup(
 @command.command()
 def export(
     folder: FolderArgument,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder for the tables.", show_default="DIR/export")] = None,
+    out: Annotated[Path | None, "Folder for the tables.", "DIR/export"] = None,
     parquet: Annotated[bool, "Parquet in place of CSV; needs pyarrow."] = False,
 ) -> None:
     """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol.

@@ -33,9 +33,7 @@ def tasks(
             help="Also the most disorienting task, and one in which the failed arm is drawn to an erroneous stationary point.",
         ),
     ] = True,
-    task: Annotated[
-        str | None, typer.Option("--task", help="What the stick moves: planar or position.", show_default="by the arm")
-    ] = None,
+    task: Annotated[str | None, "What the stick moves: planar or position.", "by the arm"] = None,
     out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:

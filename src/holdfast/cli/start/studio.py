@@ -44,12 +44,7 @@ def command(
     susceptibility: Annotated[str, f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}."] = ("torque"),
     objective: Annotated[str, "Index or susceptibility by which best and worst are found."] = "relative-manipulability",
     law: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--law",
-            help=f"Two laws side by side: {LAWS.usage}. Give it twice.",
-            show_default="pseudoinverse and failure-tolerant",
-        ),
+        list[str] | None, f"Two laws side by side: {LAWS.usage}. Give it twice.", "pseudoinverse and failure-tolerant"
     ] = None,
     target: Annotated[str | None, TARGET_HELP] = None,
     file: Annotated[str | None, "A motion that follow, simulate or recover wrote: CSV or folder."] = None,
@@ -61,12 +56,7 @@ def command(
     ] = None,
     time: Annotated[float, "Time at which the motion is shown, s."] = 0.0,
     show: Annotated[
-        str | None,
-        typer.Option(
-            "--show",
-            help="View to open: arm, best-worst, laws, swing, region or file.",
-            show_default="file or region if given, else arm",
-        ),
+        str | None, "View to open: arm, best-worst, laws, swing, region or file.", "file or region if given, else arm"
     ] = None,
     chain: Chain = Chain(),
 ) -> None:

@@ -10,20 +10,17 @@ from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
 from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed import measures
+from holdfast.cli.unnoticed.measures import Mapped, MapTimeOption
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: measures.FolderOption = None,
-    starts: measures.MapStartsOption = "1000",
-    configurations: measures.MapConfigurationsOption = 20,
-    over: measures.OverOption = "starts",
+    mapped: Mapped = Mapped(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    time_limit: measures.MapTimeOption = None,
+    time_limit: MapTimeOption = None,
     touched: Touched = Touched(),
     seed: SeedOption = 0,
     chain: Chain = Chain(),
@@ -36,9 +33,9 @@ def command(
     Example: holdfast convergence-map planar-3r --target grid:12 --over targets --out results
     """
     made = law_of(law, arm, task, chain)
-    targets, places = read_targets(made, target), read_places(starts)
+    targets, places = read_targets(made, target), read_places(mapped.starts)
     shape = touched.read(made.arm)
     with progress_bar(json_, "runs") as progress:
-        drawn: dict[str, Any] = {"configurations": configurations, "over": over, "seed": seed}
+        drawn: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": seed}
         result = hf.convergence_map(made, targets, places, time_limit=time_limit, clearance=shape, progress=progress, **drawn)
-    printed(result, json_, [] if out is None else result.save(out, command=said()))
+    printed(result, json_, [] if mapped.out is None else result.save(mapped.out, command=said()))
