@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from holdfast.cli.options import JsonOption, PlotOption, read_by_joint, read_numbers
+from holdfast.cli.options import JsonOption, PlotOption
+from holdfast.cli.values import read_by_joint, read_numbers
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:

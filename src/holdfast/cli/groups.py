@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from holdfast.arms.spec import each_arm, read_hold
-from holdfast.cli.options import JsonOption, OutOption, PlotOption, read_numbers
+from holdfast.cli.options import JsonOption, OutOption, PlotOption
+from holdfast.cli.values import read_numbers
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from holdfast.cli.options import TARGET_HELP, read_target, read_task
+from holdfast.cli.options import TARGET_HELP
+from holdfast.cli.values import read_target, read_task
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ import holdfast as hf
 from holdfast.cli.certify_options import Search, Written
 from holdfast.cli.certify_search import proved
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import ArmArgument, FailuresOption, read_numbers
+from holdfast.cli.options import ArmArgument, FailuresOption
+from holdfast.cli.values import read_numbers
 from holdfast.failures.sets import read_failures
 
 

@@ -7,18 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import holdfast as hf
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import (
-    TASK_HELP,
-    ArmArgument,
-    FailuresOption,
-    JsonOption,
-    LengthOption,
-    SeedOption,
-    read_failures,
-    read_task,
-)
+from holdfast.cli.options import TASK_HELP, ArmArgument, FailuresOption, JsonOption, LengthOption, SeedOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.assess import read_region
+from holdfast.cli.values import read_failures, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import printed, said
 from holdfast.registry import LAWS

@@ -21,11 +21,8 @@ from holdfast.cli.options import (
     PathTaskOption,
     SeedOption,
     StartDegreesOption,
-    check_unit_of_path,
-    read_configuration,
-    read_objective,
-    read_task,
 )
+from holdfast.cli.values import check_unit_of_path, read_configuration, read_objective, read_task
 
 
 def command(

@@ -19,11 +19,8 @@ from holdfast.cli.options import (
     MotionCsvOption,
     PathArgument,
     PathTaskOption,
-    check_unit_of_path,
-    read_configuration,
-    read_objective,
-    read_task,
 )
+from holdfast.cli.values import check_unit_of_path, read_configuration, read_objective, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import printed, said
 

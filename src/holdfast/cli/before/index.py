@@ -4,18 +4,8 @@ from __future__ import annotations
 
 from holdfast.cli.groups import Chain
 from holdfast.cli.measure_options import IndexOption
-from holdfast.cli.options import (
-    ArmArgument,
-    DegreesOption,
-    FailuresOption,
-    JsonOption,
-    LengthOption,
-    QOption,
-    TaskOption,
-    read_configuration,
-    read_failures,
-    read_task,
-)
+from holdfast.cli.options import ArmArgument, DegreesOption, FailuresOption, JsonOption, LengthOption, QOption, TaskOption
+from holdfast.cli.values import read_configuration, read_failures, read_task
 from holdfast.present.printing import print_each
 
 

@@ -10,8 +10,9 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.groups import Chains
-from holdfast.cli.options import FailuresOption, JsonOption, OutOption, SeedOption, TaskOption, read_failures, read_task
+from holdfast.cli.options import FailuresOption, JsonOption, OutOption, SeedOption, TaskOption
 from holdfast.cli.start.candidates import read_candidates
+from holdfast.cli.values import read_failures, read_task
 from holdfast.present.results import drawn, printed
 
 

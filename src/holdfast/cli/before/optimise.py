@@ -12,17 +12,8 @@ import typer
 from holdfast.cli.clearance import Apart
 from holdfast.cli.groups import Chain, Placement
 from holdfast.cli.measure_options import OBJECTIVES
-from holdfast.cli.options import (
-    ArmArgument,
-    JsonOption,
-    OutOption,
-    TaskOption,
-    check_unit_of_places,
-    read_configuration,
-    read_objective,
-    read_pose,
-    read_task,
-)
+from holdfast.cli.options import ArmArgument, JsonOption, OutOption, TaskOption
+from holdfast.cli.values import check_unit_of_places, read_configuration, read_objective, read_pose, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 

@@ -9,7 +9,8 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption, read_configuration
+from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption
+from holdfast.cli.values import read_configuration
 from holdfast.errors import InputError
 from holdfast.present.results import printed, printed_each
 

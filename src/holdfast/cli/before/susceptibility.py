@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from holdfast.cli.groups import Chain, Placement
-from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption, QOption, read_configuration, read_weights
+from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption, QOption
+from holdfast.cli.values import read_configuration, read_weights
 from holdfast.present.printing import print_each
 from holdfast.registry import SUSCEPTIBILITIES
 

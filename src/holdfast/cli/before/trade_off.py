@@ -8,7 +8,8 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.groups import Chain, Output
-from holdfast.cli.options import ArmArgument, TaskOption, read_numbers, read_task
+from holdfast.cli.options import ArmArgument, TaskOption
+from holdfast.cli.values import read_numbers, read_task
 
 ALLOWED = "0 0.05 0.1 0.15 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"
 

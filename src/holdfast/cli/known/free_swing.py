@@ -7,7 +7,8 @@ from typing import Annotated
 import holdfast as hf
 from holdfast.cli.clearance import Touched
 from holdfast.cli.groups import Chain, Output
-from holdfast.cli.options import ArmArgument, DegreesOption, MotionCsvOption, read_configuration, read_joint
+from holdfast.cli.options import ArmArgument, DegreesOption, MotionCsvOption
+from holdfast.cli.values import read_configuration, read_joint
 
 
 def command(

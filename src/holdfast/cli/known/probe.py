@@ -9,7 +9,8 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.groups import Chain, Output
-from holdfast.cli.options import NOT_MET, ArmArgument, SeedOption, TaskOption, read_configuration, read_joint, read_task
+from holdfast.cli.options import NOT_MET, ArmArgument, SeedOption, TaskOption
+from holdfast.cli.values import read_configuration, read_joint, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import printed
 

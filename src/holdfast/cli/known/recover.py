@@ -11,13 +11,8 @@ import typer
 import holdfast as hf
 from holdfast.cli.clearance import Apart
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import (
-    NOT_MET,
-    TASK_HELP,
-    ArmArgument,
-    FailureOption,
-    JsonOption,
-    KeepOption,
+from holdfast.cli.options import NOT_MET, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
+from holdfast.cli.values import (
     check_unit_of_path,
     read_by_joint,
     read_configuration,

@@ -8,7 +8,8 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.cli.groups import Chain, Output
-from holdfast.cli.options import ArmArgument, SeedOption, read_joint, read_numbers, read_task
+from holdfast.cli.options import ArmArgument, SeedOption
+from holdfast.cli.values import read_joint, read_numbers, read_task
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import JsonOption, read_task
+from holdfast.cli.options import JsonOption
 from holdfast.cli.progress import working
+from holdfast.cli.values import read_task
 from holdfast.present.results import printed
 
 if TYPE_CHECKING:

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption, read_configuration, read_joint
+from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption
+from holdfast.cli.values import read_configuration, read_joint
 from holdfast.errors import InputError
 from holdfast.present.printing import console, plain, print_json, print_written
 

@@ -11,9 +11,10 @@ import typer
 from holdfast.cli.clearance import Apart
 from holdfast.cli.groups import Chains
 from holdfast.cli.measure_options import IndexOption
-from holdfast.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption, read_by_joint, read_failures, read_task
+from holdfast.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.candidates import TOOL_HELP, read_candidates
+from holdfast.cli.values import read_by_joint, read_failures, read_task
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.present.printing import console

@@ -9,18 +9,8 @@ import typer
 
 from holdfast.cli.clearance import CellOption, MeshesOption
 from holdfast.cli.groups import Chain
-from holdfast.cli.options import (
-    TARGET_HELP,
-    ArmArgument,
-    DegreesOption,
-    TaskOption,
-    default_task,
-    read_configuration,
-    read_joint,
-    read_numbers,
-    read_target,
-    read_task,
-)
+from holdfast.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
+from holdfast.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 from holdfast.errors import InputError
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
 

@@ -11,16 +11,8 @@ import holdfast as hf
 from holdfast.cli.clearance import Touched
 from holdfast.cli.groups import Chain
 from holdfast.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
-from holdfast.cli.options import (
-    ArmArgument,
-    JsonOption,
-    StartDegreesOption,
-    TaskOption,
-    read_configuration,
-    read_failures,
-    read_numbers,
-    read_target,
-)
+from holdfast.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
+from holdfast.cli.values import read_configuration, read_failures, read_numbers, read_target
 from holdfast.errors import InputError
 from holdfast.present.results import printed, said
 

@@ -9,19 +9,8 @@ import holdfast as hf
 from holdfast.cli.clearance import Touched
 from holdfast.cli.groups import Chain
 from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
-from holdfast.cli.options import (
-    ArmArgument,
-    FailureOption,
-    JsonOption,
-    MotionCsvOption,
-    StartDegreesOption,
-    TaskOption,
-    read_configuration,
-    read_joint,
-    read_locks,
-    read_numbers,
-    read_target,
-)
+from holdfast.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption, TaskOption
+from holdfast.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 

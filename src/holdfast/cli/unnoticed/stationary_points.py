@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import holdfast as hf
 from holdfast.cli.groups import Chain, Output
 from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
-from holdfast.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption, read_locks, read_target
+from holdfast.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption
+from holdfast.cli.values import read_locks, read_target
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:

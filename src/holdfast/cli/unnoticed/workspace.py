@@ -5,9 +5,10 @@ from __future__ import annotations
 import holdfast as hf
 from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, TargetOption, law_of, read_places
-from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption, read_target
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed.measures import Measured, MeasureTimeOption
+from holdfast.cli.values import read_target
 from holdfast.present.results import printed, said
 
 
