@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import wraps
 from inspect import Parameter, Signature, signature
-from typing import Annotated, Any, get_args, get_type_hints
+from typing import Annotated, Any, get_origin, get_type_hints
 
 import typer
 
@@ -43,8 +43,8 @@ def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _option(name: str, kind: Any, default: Any) -> Parameter:
-    plain, *about = get_args(kind) or (kind,)
-    if about and isinstance(about[0], str):
-        shown: Any = {"show_default": about[1]} if about[1:] else {}
-        kind = Annotated[plain, typer.Option(f"--{name.strip('_').replace('_', '-')}", help=about[0], **shown)]
+    if get_origin(kind) is Annotated and isinstance(kind.__metadata__[0], str):
+        about, *shown = kind.__metadata__
+        option = typer.Option(f"--{name.strip('_').replace('_', '-')}", help=about, show_default=shown[0] if shown else True)
+        kind = Annotated[kind.__origin__, option]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind)
