@@ -474,7 +474,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.assessment import load
     from holdfast.cell import Mesh, Points
     from holdfast.clearance import Capsules
-    from holdfast.cli.options import read_weights
+    from holdfast.cli.values import read_weights
     from holdfast.engine import Threads
     from holdfast.engine.memory import BEFORE, FILE, Memory
     from holdfast.paths.path import in_file as read_path

@@ -13,6 +13,7 @@ from typing import Annotated, get_args, get_origin, get_type_hints
 import pytest
 import typer
 
+from holdfast.cli.declaration import as_typer
 from holdfast.cli.program import COMMANDS
 
 DOCS = Path(__file__).parents[1] / "docs"
@@ -30,9 +31,10 @@ def functions(name):
     module, _, function = COMMANDS[name].partition(":")
     found = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
     if not isinstance(found, typer.Typer):
-        return {name: found}
+        return {name: as_typer(found)}
     return {
-        f"{name} {each.name or each.callback.__name__.replace('_', '-')}": each.callback for each in found.registered_commands
+        f"{name} {each.name or each.callback.__name__.replace('_', '-')}": as_typer(each.callback)
+        for each in found.registered_commands
     }
 
 

@@ -11,7 +11,7 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.clearance import Capsules
-from holdfast.cli.options import read_weights
+from holdfast.cli.values import read_weights
 from holdfast.engine import Store, Study
 from holdfast.files import reading
 from holdfast.paths import path_file

@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 from holdfast.arm.task import as_task, rows_task
-from holdfast.cli.options import read_failures, read_task
+from holdfast.cli.values import read_failures, read_task
 from holdfast.failures import failure_sets
 from holdfast.present import commands as rerun
 from holdfast.present.assessment import facts

@@ -11,7 +11,8 @@ import pytest
 
 import holdfast as hf
 from holdfast import Capsules, Clearance, arms
-from holdfast.cli.clearance import read_clearance
+from holdfast.cli.clearance import Apart
+from holdfast.cli.declaration import as_typer
 from holdfast.cli.program import COMMANDS
 from holdfast.errors import InputError
 
@@ -200,14 +201,19 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
     for name in names:
         (meshes / f"{name}.stl").write_bytes(given.joinpath(f"{name}.stl").read_bytes())
     arm = arms.resolve(str(file))
-    options = (arm, True, None, None, None, True)
-    assert read_clearance(*options).capsules.describe(arm).endswith(" along each link (package://gone/link0.stl was not read)")
-    found = read_clearance(*options, meshes=meshes)
+    assert (
+        Apart(clearance=True)
+        .read(arm)
+        .capsules.describe(arm)
+        .endswith(" along each link (package://gone/link0.stl was not read)")
+    )
+    there = Apart(clearance=True, meshes=meshes)
+    found = there.read(arm)
     assert found.capsules.describe(arm).startswith("cover of the collision shapes of own.urdf: ")
     with pytest.raises(InputError, match="cannot be found or is not a folder"):
-        read_clearance(*options, meshes=tmp_path / "none")
+        Apart(clearance=True, meshes=tmp_path / "none").read(arm)
     with pytest.raises(InputError, match="'planar-3r' is from no URDF file"):
-        read_clearance(arms.load("planar-3r"), *options[1:], meshes=meshes)
+        there.read(arms.load("planar-3r"))
 
 
 CALLS = {
@@ -230,7 +236,7 @@ def test_every_command_with_a_cell_takes_the_folder_of_meshes():
     for command, module in COMMANDS.items():
         name, _, function = module.partition(":")
         made = getattr(import_module(f"holdfast.cli.{name}"), function or "command")
-        assert (command in CALLS) == (callable(made) and "cell" in inspect.signature(made).parameters), command
+        assert (command in CALLS) == (callable(made) and "cell" in inspect.signature(as_typer(made)).parameters), command
 
 
 @pytest.mark.parametrize("command", CALLS)

@@ -14,6 +14,8 @@ from importlib import import_module
 import pytest
 import typer
 
+from holdfast.cli import groups
+from holdfast.cli.declaration import as_typer
 from holdfast.cli.program import COMMANDS
 from holdfast.present.printing import plain
 from holdfast.present.results import printed, printed_each
@@ -104,7 +106,7 @@ def examples():
         if isinstance(made, typer.Typer):
             parts = [(f" {each.name or each.callback.__name__}", each.callback) for each in made.registered_commands]
         for part, each in parts:
-            yield f"{name}{part}", each, re.findall(r"Example: holdfast (.+)", each.__doc__)
+            yield f"{name}{part}", as_typer(each), re.findall(r"Example: holdfast (.+)", each.__doc__)
 
 
 HERE = {name: (each, found[0]) for name, each, found in examples() if found and name not in APART}
@@ -151,7 +153,8 @@ def carry_out(name, cli, monkeypatch, folder):
             seen(result)
         printed_each(results, as_json)
 
-    monkeypatch.setattr(module, "printed", both, raising=False)
+    for place in (module, groups):
+        monkeypatch.setattr(place, "printed", both, raising=False)
     monkeypatch.setattr(module, "printed_each", both_each, raising=False)
     code, out, err = cli(*words, "--json")
     assert code == 0, err

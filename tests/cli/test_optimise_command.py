@@ -14,7 +14,7 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast import susceptibility as sus
-from holdfast.cli.options import read_objective
+from holdfast.cli.values import read_objective
 from holdfast.indices import relative_manipulability
 
 HOME = "0 -45 0 -135 0 90 45"

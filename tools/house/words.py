@@ -11,7 +11,7 @@ from tools.house.imports import File
 
 # What to say instead is in CONTRIBUTING. A pattern leaves out what the word may still say ("by hand", "stands for").
 RETIRED = {
-    "hand": r"(?<!by )(?<!in )(?<!other )\bhands?\b(?!-| (over|on|in|out|back|it|them)\b)",
+    "hand": r"(?<!by )(?<!in )(?<!at )(?<!other )(?<!right-)(?<!left-)\bhands?\b(?!-| (over|on|in|out|back|it|them)\b)",
     "stand": r"\b(stands?|stood|standing)\b(?! (for|alone|in)\b)",
     "stuck joint": r"\b(joints?|brakes?|it|one|which) (is|are|gets?) stuck\b|\bstuck (joint|brake)s?\b",
     "limp": r"(?<!`)(?<!kind: )\blimp\b",  # the name of a kind of fault, which is hashed, may be written as code
@@ -81,6 +81,8 @@ def count(found: Iterator[tuple[str, bool, str]]) -> dict[str, int]:
             continue
         one = " ".join(text.lower().split())
         for word, pattern in RETIRED.items():
+            if teleop and word == "hand":  # of a person
+                continue
             if any(stem in one for stem in STEMS.get(word, (word.split()[0],))):
                 counts[f"{word}, {place}"] += sum(1 for _ in re.finditer(pattern, one))
         if teleop and "stud" in one:

@@ -1,73 +1,133 @@
-"""Options of the commands of ``holdfast certify``."""
+"""Options of the commands of ``holdfast certify``, and how they become arguments of a claim."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
+
+from holdfast.cli.options import JsonOption, PlotOption
+from holdfast.cli.values import read_by_joint, read_numbers
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+
+    Ranges = dict[str | int, tuple[float, float]]
 
 REJECTED, REFUTED = 1, 4  # exit codes
 
-CertificateOption = Annotated[Path, typer.Option("--out", help="Certificate to write.")]
-BoxOption = Annotated[
-    str, typer.Option("--box", help="Centre of the targets, m: x, y, z; x, y in a plane.", show_default=False)
-]
-SizeOption = Annotated[
-    str, typer.Option("--size", help="Edges of the box, m: one number, or one for each axis.", show_default=False)
-]
-LockOption = Annotated[
-    str | None,
-    typer.Option("--lock", help="JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy.", show_default=False),
-]
-LimitOption = Annotated[
-    list[str] | None,
-    typer.Option("--limit", help="JOINT=LOW..HIGH, rad or m: a working range. May be given again.", show_default=False),
-]
-RotationOption = Annotated[
-    str | None,
-    typer.Option(
-        "--rotation",
-        help="Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
-        show_default=False,
-    ),
-]
-TurnsOption = Annotated[
-    str | None,
-    typer.Option(
-        "--rotation-size",
-        help="Edges of a box around --rotation, rad: one number, or three. Default: none.",
-        show_default=False,
-    ),
-]
-PointingOption = Annotated[
-    bool, typer.Option("--pointing", help="Of --rotation only where the tool's z axis points counts, not its turn about it.")
-]
-AroundOption = Annotated[
-    str | None,
-    typer.Option("--around", help="Middle of the box: a value of each joint, rad. Default: limits.", show_default=False),
-]
-WithinOption = Annotated[
-    str | None,
-    typer.Option("--within", help="Half widths of it, rad: one number, or one for each joint.", show_default=False),
-]
-RowsOption = Annotated[str, typer.Option("--task", help="pose; planar-pose for arms in a plane.")]
-JointHalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each joint, at most.")]
-AnglesOption = Annotated[bool, typer.Option("--degrees", help="Angles are in degrees (slides stay in m).")]
-HalvingsOption = Annotated[int, typer.Option("--halvings", help="Of each axis of the box, at most.")]
-TimeOption = Annotated[
-    float | None, typer.Option("--time-limit", help="s after which the rest is undecided.", show_default=False)
-]
+LockOption = Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."]
+LimitOption = Annotated[list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again."]
+RowsOption = Annotated[str, "pose; planar-pose for arms in a plane."]
+AnglesOption = Annotated[bool, "Angles are in degrees (slides stay in m)."]
+HalvingsOption = Annotated[int, "Of each axis of the box, at most."]
+JointHalvingsOption = Annotated[int, "Of each joint, at most."]
 CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
-ReportOption = Annotated[
-    Path | None, typer.Option("--report", help="Write a page of what is proved into this HTML file.", show_default=False)
-]
-WorkersOption = Annotated[int, typer.Option("--workers", help="Processes; the certificate is the same.")]
-StoreOption = Annotated[
-    Path | None,
-    typer.Option(
-        "--store",
-        help="Folder that remembers what is done, so that the same command resumes a search that was stopped or killed.",
-        show_default=False,
-    ),
-]
+CertificateOption = Annotated[Path, "Certificate to write."]
+
+
+@dataclass(frozen=True)
+class Targets:
+    """A box of them."""
+
+    box: Annotated[str, "Centre of the targets, m: x, y, z; x, y in a plane."]
+    size: Annotated[str, "Edges of the box, m: one number, or one for each axis."]
+    rotation: Annotated[
+        str | None,
+        "Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
+    ] = None
+    rotation_size: Annotated[str | None, "Edges of a box around --rotation, rad: one number, or three. Default: none."] = None
+    pointing: Annotated[bool, "Of --rotation only where the tool's z axis points counts, not its turn about it."] = False
+
+    def read(self, degrees: bool) -> dict[str, Any]:
+        """As a claim takes them."""
+        return {
+            "centre": read_numbers("--box", self.box, "two or three numbers, m,"),
+            "size": read_numbers("--size", self.size, "one number, or one for each axis, m,"),
+            **self._turned(degrees),
+        }
+
+    def _turned(self, degrees: bool) -> dict[str, Any]:
+        from holdfast.arm.urdf import rpy_rotation
+
+        if self.rotation is None:
+            if self.rotation_size is not None or self.pointing:
+                raise InputError("--rotation-size is the box around --rotation, --pointing about its z axis; give that, too")
+            return {}
+        angles = read_numbers("--rotation", self.rotation, "roll, pitch and yaw")
+        edges = read_numbers("--rotation-size", self.rotation_size or "0", "one number, or three,")
+        if angles.size not in (1, 3) or edges.size not in (1, angles.size) or not (edges >= 0).all():
+            raise InputError(
+                "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
+            )
+        turn, task = np.pi / 180 if degrees else 1.0, {"task": "pointing"} if self.pointing else {}
+        if angles.size == 3 and not edges.any():
+            return {"rotation": rpy_rotation((turn * angles).tolist()), **task}
+        ends = turn * np.column_stack([angles - edges / 2, angles + edges / 2])
+        return {"rpy": ends if angles.size == 3 else ends[0], **task}
+
+
+@dataclass(frozen=True)
+class Configurations:
+    """A box of them: some angles around a middle, or within limits."""
+
+    around: Annotated[str | None, "Middle of the box: a value of each joint, rad. Default: limits."] = None
+    within: Annotated[str | None, "Half widths of it, rad: one number, or one for each joint."] = None
+    limit: LimitOption = None
+
+    def read(self, arm: Arm, degrees: bool) -> Ranges:
+        """As a claim takes it."""
+        box: Ranges = {}
+        if (self.around is None) != (self.within is None):
+            raise InputError("--around and --within go together: the middle of the box and its half widths")
+        if self.around is not None and self.within is not None:
+            middle = read_numbers("--around", self.around, f"{arm.n} numbers,")
+            half = read_numbers("--within", self.within, f"one number, or {arm.n},")
+            if len(middle) != arm.n or len(half) not in (1, arm.n):
+                raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+            pairs = zip(arm.joint_names, middle, [*half] * (arm.n // len(half)), strict=True)
+            texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
+            box = intervals(arm, "--around", texts, degrees)
+        return box | intervals(arm, "--limit", self.limit, degrees)
+
+
+@dataclass(frozen=True)
+class Search:
+    """How long it may take, and where it is remembered."""
+
+    time_limit: Annotated[float | None, "s after which the rest is undecided."] = None
+    workers: Annotated[int, "Processes; the certificate is the same."] = 1
+    store: Annotated[
+        Path | None, "Folder that remembers what is done, so that the same command resumes a search that was stopped or killed."
+    ] = None
+    check: CheckOption = True
+
+
+@dataclass(frozen=True)
+class Written:
+    """Where it is written, and what is shown."""
+
+    out: CertificateOption
+    plot: PlotOption = None
+    report: Annotated[Path | None, "Write a page of what is proved into this HTML file."] = None
+    json_: JsonOption = False
+
+
+def intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
+    """``JOINT=LOW..HIGH`` as numbers, rad."""
+    ends: tuple[list[str], list[str]] = [], []
+    for text in texts or []:
+        joint, _, span = text.rpartition("=")
+        low, dots, high = span.partition("..")
+        if not dots:
+            raise InputError(
+                f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
+            )
+        for end, value in zip(ends, (low, high), strict=True):
+            end.append(f"{joint}={value}")
+    lows, highs = (read_by_joint(arm, end, option, degrees) for end in ends)
+    return {name: (lows[name], highs[name]) for name in lows}

@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import REFUTED, REJECTED
+from holdfast.cli.certify_options import REFUTED, REJECTED, Search, Written
 from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import NOT_MET
 from holdfast.cli.progress import progress_bar
 from holdfast.present.results import drawn, printed, said
 
 
-def proved(
-    claim: Any, out: Path, check: bool, as_json: bool, plot: Path | None = None, report: Path | None = None, **how: Any
-) -> None:
+def proved(claim: Any, search: Search, written: Written, **how: Any) -> None:
     """Search, write, check, draw, print."""
     from holdfast.certificates import PathProof
     from holdfast.present.certificates.console import state
 
-    bar = progress_bar(as_json, "ten-thousandths")
+    bar = progress_bar(written.json_, "ten-thousandths")
     with stopping("") as stop, bar as progress:
+        how |= {"time_limit": search.time_limit, "workers": search.workers, "store": search.store}
         proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
-    file = proof.write(out)
-    found = hf.check_certificate(file) if check and not stop() else None
-    page = [] if report is None else [proof.report(report, command=said(), check=found, file=file)]
-    printed(found or proof, as_json, [file, *drawn(proof, plot), *page])
+    file = proof.write(written.out)
+    found = hf.check_certificate(file) if search.check and not stop() else None
+    page = [] if written.report is None else [proof.report(written.report, command=said(), check=found, file=file)]
+    printed(found or proof, written.json_, [file, *drawn(proof, written.plot), *page])
     if stop():
         raise KeyboardInterrupt
     if found is not None and found.rejected:

@@ -4,43 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
-from holdfast.cli.options import TARGET_HELP, read_arm, read_target, read_task
+from holdfast.cli.options import TARGET_HELP
+from holdfast.cli.values import read_target, read_task
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
+    from holdfast.cli.groups import Chain
     from holdfast.control.law import Law
 
-TargetOption = Annotated[str, typer.Option("--target", help=TARGET_HELP, show_default=False)]
-TargetsOption = Annotated[
-    str,
-    typer.Option(
-        "--target",
-        help=f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200).",
-        show_default=False,
-    ),
-]
+TargetOption = Annotated[str, TARGET_HELP]
+TargetsOption = Annotated[str, f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200)."]
 LAW_HELP = f"{LAWS.usage}."
-LawOption = Annotated[str, typer.Option("--law", help=LAW_HELP)]
+LawOption = Annotated[str, LAW_HELP]
 LawsOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--law", help=f"A law to compare: {LAW_HELP} May be given again.", show_default="pseudoinverse and failure-tolerant"
-    ),
+    list[str] | None, f"A law to compare: {LAW_HELP} May be given again.", "pseudoinverse and failure-tolerant"
 ]
-GainOption = Annotated[float, typer.Option("--gain", help="Feedback gain Ke, per s or per cycle.")]
-SpeedLimitOption = Annotated[
-    float | None,
-    typer.Option("--speed-limit", help="Of the end effector, m/s or m per cycle. Default: none.", show_default=False),
-]
-CyclesOption = Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")]
-TimeLimitOption = Annotated[
-    float | None, typer.Option("--time-limit", help="Time limit, s or cycles.", show_default="3000/gain s, or 1000 cycles")
-]
-LockDegreesOption = Annotated[bool, typer.Option("--degrees", help="--lock is in degrees (prismatic joints stay in m).")]
+GainOption = Annotated[float, "Feedback gain Ke, per s or per cycle."]
+SpeedLimitOption = Annotated[float | None, "Of the end effector, m/s or m per cycle. Default: none."]
+CyclesOption = Annotated[bool, "Discrete control cycles in place of continuous time."]
+TimeLimitOption = Annotated[float | None, "Time limit, s or cycles.", "3000/gain s, or 1000 cycles"]
+LockDegreesOption = Annotated[bool, "--lock is in degrees (prismatic joints stay in m)."]
 
 
 def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
@@ -55,11 +40,9 @@ def read_laws(labels: list[str] | None, arm: Arm, task: str | None, spec: str, *
     return [read_law(label, arm, chosen, **more) for label in labels or ["pseudoinverse", "failure-tolerant"]]
 
 
-def law_of(
-    label: str, arm: str, task: str | None, base: str | None, tip: str | None, hold: list[str] | None, **more: Any
-) -> Law:
-    """The law that --law, ARM, --task, --base, --tip and --hold name."""
-    model = read_arm(arm, base, tip, hold)
+def law_of(label: str, arm: str, task: str | None, chain: Chain, **more: Any) -> Law:
+    """The law that --law, ARM, --task and the options of the chain name."""
+    model = chain.arm(arm)
     return read_law(label, model, read_task(task, arm, model), **more)
 
 

@@ -4,17 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from holdfast.registry import INDICES, SUSCEPTIBILITIES
 
-IndexOption = Annotated[
-    str,
-    typer.Option(
-        "--index",
-        help=f"{INDICES.usage}.",
-    ),
-]
+IndexOption = Annotated[str, f"{INDICES.usage}."]
 OBJECTIVES = (
     f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, torque:joint2 for "
     f"one joint alone), or an index: {', '.join(e.usage for e in INDICES.values())}"

@@ -14,6 +14,7 @@ import typer
 from typer.exceptions import TyperException
 
 from holdfast.cli.completion import asked
+from holdfast.cli.declaration import as_typer
 from holdfast.cli.interrupt import STOPPED
 from holdfast.cli.layout import LaidOut, LaidOutGroup
 from holdfast.errors import ArmError, HoldfastError
@@ -96,10 +97,10 @@ def assembled(command: str | None = None) -> typer.Typer:
         made = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
         if isinstance(made, typer.Typer):
             for each in made.registered_commands:
-                each.cls = LaidOut
+                each.cls, each.callback = LaidOut, as_typer(each.callback)  # type: ignore[arg-type]
             app.add_typer(made, name=name, cls=LaidOutGroup, rich_help_panel=panel)
         else:
-            app.command(name, rich_help_panel=panel, cls=LaidOut)(made)
+            app.command(name, rich_help_panel=panel, cls=LaidOut)(as_typer(made))
     return app
 
 

@@ -1,4 +1,4 @@
-"""Where planar arms of three joints get stuck, for all targets and any link lengths at once.
+"""Where sinks hold planar arms of three joints, for all targets and any link lengths at once.
 
 The reverse of :func:`holdfast.stationary_points`: not the stationary points of one target, but the targets of every stationary
 point. With joint i locked the arm can only rest where the columns of the two healthy joints line up, ``rank(iJ) = 1``: a curve
@@ -116,10 +116,10 @@ class PlanarRest:
         # As the law sees it: in units of the task's characteristic length.
         j = kinematics.jacobian(arm, q)[:2, moving] / self.law.task.length
         rates = self.law.inverse(j, v / self.law.task.length)
-        hand = kinematics.tool_pose(arm, q)[:2, 3]
+        tool = kinematics.tool_pose(arm, q)[:2, 3]
         moved = -ca.jacobian(rates, v) @ kinematics.jacobian(arm, q)[:2, moving]
         return (
-            Kernel("rest shapes", [q], [j, hand]),
+            Kernel("rest shapes", [q], [j, tool]),
             Kernel("rest slopes", [q, v], [ca.jacobian(rates, q)[:, moving], moved]),
         )
 
@@ -214,7 +214,7 @@ class _Shapes:
         lengths: (D, 3).
         joint: The locked one, from 0.
         angle: (S,) the angle run through; for joints 2 and 3 it is the locked one.
-        hand, along: (D, 2, S, 2) the tool point and the direction b, link 1 along x.
+        tool, along: (D, 2, S, 2) the tool point and the direction b, link 1 along x.
         trace: Two (D, 2, S): of M0 and of M1.
         det: Three (D, 2, S): of 1, lambda and lambda^2.
         reach: Two (D, 2, S): from the end effector to the middle about which the two links turn that are left, its product with
@@ -225,7 +225,7 @@ class _Shapes:
     lengths: Array
     joint: int
     angle: Array
-    hand: Array
+    tool: Array
     along: Array
     trace: tuple[Array, Array]
     det: tuple[Array, Array, Array]
@@ -257,7 +257,7 @@ class _Shapes:
         branches = []
         for turn in (0.0, np.pi):
             q = at(zero + turn)
-            j, hand = jacobian(q)
+            j, tool = jacobian(q)
             columns = j[:, :, healthy]
             longer = columns[np.arange(len(q)), :, np.argmax(np.linalg.norm(columns, axis=1), axis=1)]
             u = np.stack([-longer[:, 1], longer[:, 0]], axis=1)
@@ -267,11 +267,11 @@ class _Shapes:
             by_q, by_hand = slopes(q, b)
             m0, m1 = (m[:, healthy][:, :, healthy] for m in (by_hand, by_q))
             d0, d2 = np.linalg.det(m0), np.linalg.det(m1)
-            one = (hand, b, np.trace(m0, 0, 1, 2), np.trace(m1, 0, 1, 2), d0, np.linalg.det(m0 + m1) - d0 - d2, d2)
+            one = (tool, b, np.trace(m0, 0, 1, 2), np.trace(m1, 0, 1, 2), d0, np.linalg.det(m0 + m1) - d0 - d2, d2)
             branches.append([x.reshape(count, angles, *x.shape[1:]) for x in one])
-        hand, along, t0, t1, d0, d1, d2 = (np.stack([b[k] for b in branches], axis=1) for k in range(7))
+        tool, along, t0, t1, d0, d1, d2 = (np.stack([b[k] for b in branches], axis=1) for k in range(7))
         first, second, third = (lengths[:, k, None, None] for k in range(3))
-        centre = np.zeros_like(hand)
+        centre = np.zeros_like(tool)
         if joint == 0:
             centre[..., 0] = first
             one_link, other = second, third
@@ -279,10 +279,10 @@ class _Shapes:
             one_link, other = np.abs(first + second * np.exp(1j * angle)), third
         else:
             one_link, other = first, np.abs(second + third * np.exp(1j * angle))
-        low, high = (np.broadcast_to(x, hand.shape[:3]) for x in (np.abs(one_link - other), one_link + other))
-        away = hand - centre
+        low, high = (np.broadcast_to(x, tool.shape[:3]) for x in (np.abs(one_link - other), one_link + other))
+        away = tool - centre
         reach = (away * along).sum(-1), (away**2).sum(-1)
-        return cls(lengths, joint, angle, hand, along, (t0, t1), (d0, d1, d2), reach, low, high)
+        return cls(lengths, joint, angle, tool, along, (t0, t1), (d0, d1, d2), reach, low, high)
 
     def sinks(self, far: Array) -> Flags:
         """(D, 2, S) whether the stationary point is a sink whose target is ``far`` (D, 2, S) along b, and is in reach."""
@@ -296,8 +296,8 @@ class _Shapes:
 
     @cached_property
     def _line(self) -> tuple[Array, Array]:
-        middle = (self.hand * self.along).sum(-1)
-        return middle, middle**2 - (self.hand**2).sum(-1)
+        middle = (self.tool * self.along).sum(-1)
+        return middle, middle**2 - (self.tool**2).sum(-1)
 
     def _far(self, r: float) -> Array:
         """(D, 2, 2, S) the two ways along b to a target at distance r; NaN where there is none."""
@@ -323,7 +323,7 @@ class _Shapes:
     def held_first(self, r: float, cells: int) -> Flags:
         """(D, cells) at which angles of joint 1 from the direction to a target at distance r there is a sink."""
         far, held = self._far(r), self.held(r)
-        place = self.hand[:, :, None] + far[..., None] * self.along[:, :, None]
+        place = self.tool[:, :, None] + far[..., None] * self.along[:, :, None]
         # Where along the circle the curve is, in cells; from one point to the next it covers what lies between.
         at = (np.arctan2(-place[..., 1], place[..., 0]) % TURN) / TURN * cells
         step = (np.diff(at, axis=-1) + cells / 2) % cells - cells / 2
@@ -342,7 +342,7 @@ class _Shapes:
 
     def touched(self, radii: Array) -> Flags:
         """(D, K) whether any target in a ring has a sink within its reach: by intervals of lambda, exact at each shape."""
-        xb, xx = (self.hand * self.along).sum(-1), (self.hand**2).sum(-1)
+        xb, xx = (self.tool * self.along).sum(-1), (self.tool**2).sum(-1)
         yb, yy = self.reach
         one = np.ones_like(xb)
         with np.errstate(divide="ignore", invalid="ignore"):

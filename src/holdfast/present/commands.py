@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -56,16 +57,21 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         options["restarts"] = str(a.restarts)
     apart = _clearance_options(a)
     locks = [f"--lock {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
-    lines = [f"holdfast assess {shlex.quote(spec)}"]
     words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
     flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
-    for word in [*words, *flags, *apart, *locks]:
+    return on_lines(f"holdfast assess {shlex.quote(spec)}", [*words, *flags, *apart, *locks]), remark
+
+
+def on_lines(command: str, words: Iterable[str]) -> str:
+    """A command with its options, on lines that a page holds, as a shell takes them."""
+    lines = [command]
+    for word in words:
         if len(lines[-1]) + len(word) > 90:
             lines[-1] += " \\"
             lines.append("    " + word)
         else:
             lines[-1] += " " + word
-    return "\n".join(lines), remark
+    return "\n".join(lines)
 
 
 def _clearance_options(a: Assessment) -> list[str]:

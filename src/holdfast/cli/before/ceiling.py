@@ -21,30 +21,20 @@ if TYPE_CHECKING:
 
 
 def command(
-    joints: Annotated[int | None, typer.Argument(metavar="JOINTS", help="Joints of the arm.", show_default=False)] = None,
-    rows: Annotated[
-        str | None, typer.Argument(metavar="ROWS", help="Rows of the task, or its name.", show_default=False)
-    ] = None,
+    joints: Annotated[int | None, typer.Argument(metavar="JOINTS", help="Joints of the arm.")] = None,
+    rows: Annotated[str | None, typer.Argument(metavar="ROWS", help="Rows of the task, or its name.")] = None,
     failures: Annotated[int, typer.Argument(metavar="FAILURES", help="Joints that fail at once.")] = 1,
-    table: Annotated[bool, typer.Option("--table", help="All sizes that are stored instead.")] = False,
-    task: Annotated[str | None, typer.Option("--task", help="Those of one task in --table.", show_default=False)] = None,
-    verify: Annotated[bool, typer.Option("--verify", help="Measure the stored null space anew; replay certificates.")] = False,
-    search: Annotated[
-        float | None, typer.Option("--search", help="Seconds to search for a better null space.", show_default=False)
-    ] = None,
-    arm: Annotated[
-        Path | None,
-        typer.Option(
-            "--arm", help="Write a revolute arm that attains the best known value, or what --search found.", show_default=False
-        ),
-    ] = None,
+    table: Annotated[bool, "All sizes that are stored instead."] = False,
+    task: Annotated[str | None, "Those of one task in --table."] = None,
+    verify: Annotated[bool, "Measure the stored null space anew; replay certificates."] = False,
+    search: Annotated[float | None, "Seconds to search for a better null space."] = None,
+    arm: Annotated[Path | None, "Write a revolute arm that attains the best known value, or what --search found."] = None,
     singular_value: Annotated[
         float | None,
         typer.Option(
             "--singular-value",
             metavar="LEVER",
             help="Of the least singular value instead, for a mean lever of the joints, m (for a pose in lengths, or inf).",
-            show_default=False,
         ),
     ] = None,
     seed: SeedOption = 0,

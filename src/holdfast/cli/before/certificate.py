@@ -13,7 +13,7 @@ from holdfast.cli.options import JsonOption
 from holdfast.errors import InputError
 from holdfast.present.results import printed
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.", show_default=False)]
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.")]
 
 command = typer.Typer(
     name="certificate",
@@ -25,10 +25,8 @@ command = typer.Typer(
 @command.command()
 def check(
     file: FileArgument,
-    sample: Annotated[
-        int | None, typer.Option("--sample", help="Only so many cells, drawn at random.", show_default=False)
-    ] = None,
-    workers: Annotated[int, typer.Option("--workers", help="Processes.")] = 1,
+    sample: Annotated[int | None, "Only so many cells, drawn at random."] = None,
+    workers: Annotated[int, "Processes."] = 1,
     json_: JsonOption = False,
 ) -> None:
     """Check a certificate: every cell again, in ball arithmetic.

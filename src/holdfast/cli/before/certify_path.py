@@ -8,51 +8,26 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import CertificateOption, CheckOption, ReportOption, StoreOption, TimeOption, WorkersOption
+from holdfast.cli.certify_options import Search, Written
 from holdfast.cli.certify_search import proved
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    FailuresOption,
-    HoldOption,
-    JsonOption,
-    PlotOption,
-    TipOption,
-    read_arm,
-    read_numbers,
-)
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import ArmArgument, FailuresOption
+from holdfast.cli.values import read_numbers
 from holdfast.failures.sets import read_failures
 
 
 def path(
     arm: ArmArgument,
-    motion: Annotated[
-        Path, typer.Argument(metavar="MOTION", help="CSV file with a column for each joint.", show_default=False)
-    ],
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with a column for each joint.")],
     failures: FailuresOption = "single",
-    during: Annotated[str, typer.Option("--during", help="When a joint may lock: two parts of the motion.")] = "0 1",
-    tube: Annotated[
-        str,
-        typer.Option("--tube", help="How far off the path may be, m, and rad where the tool turns; or one number for both."),
-    ] = "0",
-    task: Annotated[
-        str, typer.Option("--task", help="What follows the path: pose, position, pointing, planar or planar-pose.")
-    ] = "pose",
-    segments: Annotated[
-        int | None, typer.Option("--segments", help="Use so many of the motion. Default: all.", show_default=False)
-    ] = None,
-    halvings: Annotated[int, typer.Option("--halvings", help="Of intervals of lock instants, at most.")] = 6,
-    time_limit: TimeOption = None,
-    workers: WorkersOption = 1,
-    store: StoreOption = None,
-    check: CheckOption = True,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    out: CertificateOption = Path("path.certificate"),
-    plot: PlotOption = None,
-    report: ReportOption = None,
-    json_: JsonOption = False,
+    during: Annotated[str, "When a joint may lock: two parts of the motion."] = "0 1",
+    tube: Annotated[str, "How far off the path may be, m, and rad where the tool turns; or one number for both."] = "0",
+    task: Annotated[str, "What follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
+    segments: Annotated[int | None, "Use so many of the motion. Default: all."] = None,
+    halvings: Annotated[int, "Of intervals of lock instants, at most."] = 6,
+    search: Search = Search(),
+    chain: Chain = Chain(),
+    written: Written = Written(Path("path.certificate")),
 ) -> None:
     """Prove that whatever joint locks, and whenever, one continuous motion finishes the path of the tool.
 
@@ -64,7 +39,7 @@ def path(
     """
     from holdfast.paths.joint_table import joint_columns, read_joint_table
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     claim = hf.certificates.path_claim(
         model,
         read_joint_table(model, motion, "motion", "time_s").numbers(joint_columns(model)),
@@ -74,5 +49,4 @@ def path(
         task=task,
         segments=segments,
     )
-    how = {"halvings": halvings, "time_limit": time_limit, "workers": workers, "store": store}
-    proved(claim, out, check, json_, plot, report, **how)
+    proved(claim, search, written, halvings=halvings)

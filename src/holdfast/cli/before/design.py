@@ -5,25 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 import holdfast as hf
-from holdfast.cli.options import (
-    TASK_HELP,
-    ArmArgument,
-    BaseOption,
-    FailuresOption,
-    HoldOption,
-    JsonOption,
-    LengthOption,
-    SeedOption,
-    TipOption,
-    read_arm,
-    read_failures,
-    read_task,
-)
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import TASK_HELP, ArmArgument, FailuresOption, JsonOption, LengthOption, SeedOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.assess import read_region
+from holdfast.cli.values import read_failures, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import printed, said
 from holdfast.registry import LAWS
@@ -36,54 +23,30 @@ def command(
     arm: ArmArgument,
     vary: Annotated[
         list[str],
-        typer.Option(
-            "--vary",
-            help="What to vary, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
-            "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. May be given again.",
-            show_default=False,
-        ),
+        "What to vary, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
+        "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. May be given again.",
     ],
     maximise: Annotated[
         str,
-        typer.Option(
-            "--maximise",
-            help="What to maximise: an index, of which a quantile over the region counts; convergence, how often the "
-            "arm reaches its target after a lock that its controller does not know of; self-motion-size, how far all joints "
-            "turn on one self-motion; or tolerant-workspace, the area that a planar arm keeps whatever joint locks.",
-        ),
+        "What to maximise: an index, of which a quantile over the region counts; convergence, how often the "
+        "arm reaches its target after a lock that its controller does not know of; self-motion-size, how far all joints "
+        "turn on one self-motion; or tolerant-workspace, the area that a planar arm keeps whatever joint locks.",
     ] = "relative-manipulability",
-    law: Annotated[
-        str | None,
-        typer.Option("--law", help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.", show_default=False),
-    ] = None,
-    keep_reach: Annotated[
-        bool,
-        typer.Option("--keep-reach", help="With --maximise convergence or tolerant-workspace: link lengths keep their sum."),
-    ] = False,
-    region: Annotated[
-        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
-    ] = None,
-    task: Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)] = None,
+    law: Annotated[str | None, f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse."] = None,
+    keep_reach: Annotated[bool, "With --maximise convergence or tolerant-workspace: link lengths keep their sum."] = False,
+    region: Annotated[Path | None, "Region file (YAML). Default: around the arm's home."] = None,
+    task: Annotated[str | None, TASK_HELP] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    level: Annotated[
-        float, typer.Option("--level", help="Fraction of the poses for which the index is to be guaranteed.")
-    ] = 0.95,
-    poses: Annotated[int, typer.Option("--poses", help="Poses on which designs are compared.")] = 256,
-    designs: Annotated[int, typer.Option("--designs", help="How many designs, spread over the bounds, are tried first.")] = 512,
-    climbs: Annotated[int, typer.Option("--climbs", help="Climbs with exact gradients, from the best of them.")] = 8,
-    fresh: Annotated[int, typer.Option("--fresh", help="Fresh poses for the final check.")] = 2000,
+    level: Annotated[float, "Fraction of the poses for which the index is to be guaranteed."] = 0.95,
+    poses: Annotated[int, "Poses on which designs are compared."] = 256,
+    designs: Annotated[int, "How many designs, spread over the bounds, are tried first."] = 512,
+    climbs: Annotated[int, "Climbs with exact gradients, from the best of them."] = 8,
+    fresh: Annotated[int, "Fresh poses for the final check."] = 2000,
     seed: SeedOption = 0,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for report, best arm and designs; a stopped search resumes.", show_default=False),
-    ] = None,
-    threads: Annotated[
-        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
-    ] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    out: Annotated[Path | None, "Folder for report, best arm and designs; a stopped search resumes."] = None,
+    threads: Annotated[int | None, "Threads. Default: all processors."] = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Which arm to build: search link lengths, twists, offsets, limits or the tool for the most dexterity left after a failure.
@@ -95,7 +58,7 @@ def command(
     """
     if threads is not None:
         hf.kernels.set_threads(threads)
-    given = read_arm(arm, base, tip, hold)
+    given = chain.arm(arm)
     space = hf.designs.design_space(given, vary)
     rows = read_task(task, arm, given)
     found: Result

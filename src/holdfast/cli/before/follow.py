@@ -5,42 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import (
-    CapsulesOption,
-    CellOption,
-    ClearanceOption,
-    MarginOption,
-    MeshesOption,
-    RadiusOption,
-    check_clearance,
-    read_kept,
-)
+from holdfast.cli.clearance import Apart
+from holdfast.cli.groups import Chain, Placement
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
-    BaseOption,
     DegreesOption,
     DurationOption,
-    GravityOption,
-    HoldOption,
     JsonOption,
     MotionCsvOption,
-    MountOption,
     PathArgument,
     PathTaskOption,
-    PayloadOption,
-    TipOption,
-    check_unit_of_places,
-    placed,
-    read_arm,
-    read_configuration,
-    read_objective,
-    read_task,
 )
+from holdfast.cli.values import check_unit_of_path, read_configuration, read_objective, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import printed, said
 
@@ -49,73 +29,32 @@ def command(
     arm: ArmArgument,
     path: PathArgument,
     minimise: Annotated[
-        str | None,
-        typer.Option(
-            "--minimise",
-            help=f"What the self-motion makes small: {OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.",
-            show_default=False,
-        ),
+        str | None, f"What the self-motion makes small: {OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'."
     ] = None,
-    maximise: Annotated[
-        str | None, typer.Option("--maximise", help="What it makes large: the same choices.", show_default=False)
-    ] = None,
+    maximise: Annotated[str | None, "What it makes large: the same choices."] = None,
     method: Annotated[
-        str,
-        typer.Option(
-            "--method",
-            help="gradient-projection, extended-jacobian, augmented-jacobian or none (least-norm rates, to compare).",
-        ),
+        str, "gradient-projection, extended-jacobian, augmented-jacobian or none (least-norm rates, to compare)."
     ] = "gradient-projection",
     task: PathTaskOption = None,
-    q: Annotated[
-        str | None, typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False)
-    ] = None,
+    q: Annotated[str | None, "Where to start, rad and m. Default: the best configuration."] = None,
     degrees: DegreesOption = False,
-    gain: Annotated[
-        float | None, typer.Option("--gain", help="Feedback gain. Default: high enough to hardly lag.", show_default=False)
-    ] = None,
-    wanted: Annotated[
-        float | None,
-        typer.Option("--wanted", help="Value the augmented Jacobian keeps. Default: that of the start.", show_default=False),
-    ] = None,
-    rate_cap: Annotated[
-        float | None,
-        typer.Option("--rate-cap", help="Largest norm of the joint rates, rad/s; slows self-motion only.", show_default=False),
-    ] = None,
-    samples: Annotated[int, typer.Option("--samples", help="Samples over the duration.")] = 501,
+    gain: Annotated[float | None, "Feedback gain. Default: high enough to hardly lag."] = None,
+    wanted: Annotated[float | None, "Value the augmented Jacobian keeps. Default: that of the start."] = None,
+    rate_cap: Annotated[float | None, "Largest norm of the joint rates, rad/s; slows self-motion only."] = None,
+    samples: Annotated[int, "Samples over the duration."] = 501,
     duration: DurationOption = None,
-    best: Annotated[
-        bool, typer.Option("--best", help="Also the best of each pose (one or two degrees of redundancy).")
-    ] = False,
+    best: Annotated[bool, "Also the best of each pose (one or two degrees of redundancy)."] = False,
     torque_bound: Annotated[
-        float | None,
-        typer.Option(
-            "--torque-bound",
-            help="N m. How slow must the motion be for torques to stay this close to those of gravity?",
-            show_default=False,
-        ),
+        float | None, "N m. How slow must the motion be for torques to stay this close to those of gravity?"
     ] = None,
-    cell: CellOption = None,
-    clearance: ClearanceOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
-    margin: MarginOption = None,
-    no_limits: Annotated[bool, typer.Option("--no-limits", help="Ignore joint limits while moving.")] = False,
+    apart: Apart = Apart(),
+    no_limits: Annotated[bool, "Ignore joint limits while moving."] = False,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
-    mount: MountOption = "floor",
-    gravity: GravityOption = None,
-    payload: PayloadOption = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for trajectory.csv and report.html.", show_default=False)
-    ] = None,
+    placement: Placement = Placement(),
+    chain: Chain = Chain(),
+    out: Annotated[Path | None, "Folder for trajectory.csv and report.html."] = None,
     csv: MotionCsvOption = None,
-    parquet: Annotated[
-        Path | None, typer.Option("--parquet", help="The same as Parquet (needs holdfast[parquet]).", show_default=False)
-    ] = None,
+    parquet: Annotated[Path | None, "The same as Parquet (needs holdfast[parquet])."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Follow a path with the end effector while the self-motion prepares the arm for a joint failure.
@@ -126,10 +65,10 @@ def command(
 
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
-    check_clearance(clearance, capsules, radius, margin, cell)
-    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
+    apart.check()
+    model = placement.of(chain.arm(arm))
     timed = hf.paths.TimedPath.load(path, duration)
-    check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
+    check_unit_of_path(model, timed.path, f"path '{path}'")
     chosen = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *wish, chosen)  # the other way round already, if that is meant
@@ -149,8 +88,8 @@ def command(
         seed=seed,
         best=best,
         torque_bound=torque_bound,
-        clearance=read_kept(model, clearance, capsules, radius, margin, cell, meshes),
-        margin=margin or 0.0,
+        clearance=apart.read_if_asked(model),
+        margin=apart.margin or 0.0,
     )
     files = [] if csv is None else [result.to_csv(csv)]
     if parquet is not None:

@@ -2,23 +2,10 @@
 
 from __future__ import annotations
 
+from holdfast.cli.groups import Chain
 from holdfast.cli.measure_options import IndexOption
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    DegreesOption,
-    FailuresOption,
-    HoldOption,
-    JsonOption,
-    LengthOption,
-    QOption,
-    TaskOption,
-    TipOption,
-    read_arm,
-    read_configuration,
-    read_failures,
-    read_task,
-)
+from holdfast.cli.options import ArmArgument, DegreesOption, FailuresOption, JsonOption, LengthOption, QOption, TaskOption
+from holdfast.cli.values import read_configuration, read_failures, read_task
 from holdfast.present.printing import print_each
 
 
@@ -30,9 +17,7 @@ def command(
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     degrees: DegreesOption = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Evaluate a fault tolerance index at a configuration: per failed joint, the worst one, and the gradient.
@@ -42,7 +27,7 @@ def command(
     from holdfast.indices.index import by_name
     from holdfast.present.indices.console import index_values, show_index
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     configurations = [read_configuration(model, text, degrees) for text in q]
     measure = by_name(index, model, read_task(task, arm, model), failures=read_failures(model, failures), length=length)
     print_each(measure, configurations, json_, index_values, show_index)

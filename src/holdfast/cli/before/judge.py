@@ -9,64 +9,33 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import (
-    BasesOption,
-    FailuresOption,
-    HoldsOption,
-    JsonOption,
-    NamesOption,
-    OutOption,
-    SeedOption,
-    TaskOption,
-    TipsOption,
-    each_arm,
-    read_failures,
-    read_task,
-)
+from holdfast.cli.groups import Chains
+from holdfast.cli.options import FailuresOption, JsonOption, OutOption, SeedOption, TaskOption
 from holdfast.cli.start.candidates import read_candidates
+from holdfast.cli.values import read_failures, read_task
 from holdfast.present.results import drawn, printed
 
 
 def command(
     arm: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several side by side.", show_default=False
-        ),
+        list[str], typer.Argument(metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several side by side.")
     ],
-    region: Annotated[
-        Path | None,
-        typer.Option("--region", help="Region file (YAML). Default: around the home of the first arm.", show_default=False),
-    ] = None,
+    region: Annotated[Path | None, "Region file (YAML). Default: around the home of the first arm."] = None,
     task: TaskOption = None,
     failures: FailuresOption = "single",
     measures: Annotated[
         list[str] | None,
-        typer.Option(
-            "--measures",
-            help="quantile, fraction-above, self-motion-size or tolerant-workspace; may be given again. Default: all that the "
-            "arms have.",
-            show_default=False,
-        ),
+        "quantile, fraction-above, self-motion-size or tolerant-workspace; may be given again. Default: all that the "
+        "arms have.",
     ] = None,
-    level: Annotated[float, typer.Option("--level", help="Fraction of the poses that have at least a quantile.")] = 0.95,
-    thresholds: Annotated[
-        list[float] | None,
-        typer.Option(
-            "--thresholds", help="For fraction-above; may be given again. Default: 0.05, 0.1, 0.2, 0.3.", show_default=False
-        ),
-    ] = None,
-    poses: Annotated[int, typer.Option("--poses", help="Poses of the region.")] = 100,
-    samples: Annotated[int, typer.Option("--samples", help="Configurations of each arm.")] = 20_000,
-    points: Annotated[int, typer.Option("--points", help="Points of a workspace, where it is sampled.")] = 300,
-    best_limits: Annotated[
-        bool, typer.Option("--best-limits", help="Look for the artificial limits of the largest tolerant workspace.")
-    ] = False,
+    level: Annotated[float, "Fraction of the poses that have at least a quantile."] = 0.95,
+    thresholds: Annotated[list[float] | None, "For fraction-above; may be given again. Default: 0.05, 0.1, 0.2, 0.3."] = None,
+    poses: Annotated[int, "Poses of the region."] = 100,
+    samples: Annotated[int, "Configurations of each arm."] = 20_000,
+    points: Annotated[int, "Points of a workspace, where it is sampled."] = 300,
+    best_limits: Annotated[bool, "Look for the artificial limits of the largest tolerant workspace."] = False,
     seed: SeedOption = 0,
-    base: BasesOption = None,
-    tip: TipsOption = None,
-    hold: HoldsOption = None,
-    name: NamesOption = None,
+    chains: Chains = Chains(),
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -76,7 +45,7 @@ def command(
 
     Example: holdfast judge panda xarm7 --measures fraction-above
     """
-    several = read_candidates(each_arm(arm, base, tip, hold, name), [], [] if task is None else [task])
+    several = read_candidates(chains.arms(arm), [], [] if task is None else [task])
     first = several[0]
     found = hf.designs.judge(
         [replace(each.arm, name=each.name) for each in several],

@@ -9,27 +9,11 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli import clearance as apart
+from holdfast.cli.clearance import Apart
+from holdfast.cli.groups import Chain, Placement
 from holdfast.cli.measure_options import OBJECTIVES
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    GravityOption,
-    HoldOption,
-    JsonOption,
-    MountOption,
-    OutOption,
-    PayloadOption,
-    TaskOption,
-    TipOption,
-    check_unit_of_places,
-    placed,
-    read_arm,
-    read_configuration,
-    read_objective,
-    read_pose,
-    read_task,
-)
+from holdfast.cli.options import ArmArgument, JsonOption, OutOption, TaskOption
+from holdfast.cli.values import check_unit_of_places, read_configuration, read_objective, read_pose, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 
@@ -44,69 +28,32 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    minimise: Annotated[
-        str | None,
-        typer.Option("--minimise", help=f"{OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.", show_default=False),
-    ] = None,
+    minimise: Annotated[str | None, f"{OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'."] = None,
     maximise: Annotated[
-        str | None,
-        typer.Option(
-            "--maximise",
-            help="The same choices. Maximising a torque, or minimising an index, gives the worst configuration.",
-            show_default=False,
-        ),
+        str | None, "The same choices. Maximising a torque, or minimising an index, gives the worst configuration."
     ] = None,
     pose: Annotated[
         list[str] | None,
-        typer.Option(
-            "--pose",
-            help="Pose of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
-            "x,y,z is enough if the task has no orientation. May be given again.",
-            show_default=False,
-        ),
+        "Pose of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
+        "x,y,z is enough if the task has no orientation. May be given again.",
     ] = None,
-    poses: Annotated[
-        Path | None,
-        typer.Option("--poses", help="CSV file of poses; first line x,y,z,qx,qy,qz,qw (or x,y,z).", show_default=False),
-    ] = None,
+    poses: Annotated[Path | None, "CSV file of poses; first line x,y,z,qx,qy,qz,qw (or x,y,z)."] = None,
     at: Annotated[
         list[str] | None,
-        typer.Option(
-            "--at",
-            help="The pose of this configuration: joint values, rad and m, separated by commas or spaces. May be given again.",
-            show_default=False,
-        ),
+        "The pose of this configuration: joint values, rad and m, separated by commas or spaces. May be given again.",
     ] = None,
-    anywhere: Annotated[
-        bool, typer.Option("--anywhere", help="Whatever the pose: the best configuration of all within the limits.")
-    ] = False,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
+    anywhere: Annotated[bool, "Whatever the pose: the best configuration of all within the limits."] = False,
+    degrees: Annotated[bool, "--at is in degrees (prismatic joints stay in m)."] = False,
     task: TaskOption = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     starts: Annotated[
-        int | None,
-        typer.Option(
-            "--starts",
-            help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere.",
-            show_default=False,
-        ),
+        int | None, "Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere."
     ] = None,
-    clearance: apart.ClearanceOption = None,
-    capsules: apart.CapsulesOption = None,
-    radius: apart.RadiusOption = None,
-    meshes: apart.MeshesOption = None,
-    margin: apart.MarginOption = None,
-    cell: apart.CellOption = None,
-    mount: MountOption = "floor",
-    gravity: GravityOption = None,
-    payload: PayloadOption = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    apart: Apart = Apart(),
+    placement: Placement = Placement(),
+    chain: Chain = Chain(),
     out: OutOption = None,
-    csv: Annotated[
-        Path | None, typer.Option("--csv", help="Write the configurations to this file.", show_default=False)
-    ] = None,
+    csv: Annotated[Path | None, "Write the configurations to this file."] = None,
     json_: JsonOption = False,
 ) -> None:
     """The best configuration of a pose before a joint fails: the end effector does not move. With --anywhere, of all poses.
@@ -116,8 +63,8 @@ def command(
     from holdfast.arm.task import as_task
     from holdfast.solvers.optima import optimise
 
-    apart.check_clearance(clearance, capsules, radius, margin, cell)
-    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
+    apart.check()
+    model = placement.of(chain.arm(arm))
     chosen = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
@@ -136,8 +83,8 @@ def command(
         seed=seed,
         starts=starts,
         task=chosen,
-        clearance=apart.read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes),
-        margin=margin or 0.0,
+        clearance=apart.read(model),
+        margin=apart.margin or 0.0,
         initial=given,
     ).require_any()
     files = drawn(found, None, out) + ([] if csv is None else [found.to_csv(csv)])

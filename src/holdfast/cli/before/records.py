@@ -8,7 +8,9 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption, read_arm, read_configuration
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption
+from holdfast.cli.values import read_configuration
 from holdfast.errors import InputError
 from holdfast.present.results import printed, printed_each
 
@@ -18,15 +20,12 @@ command = typer.Typer(
     no_args_is_help=True,
 )
 
-NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)]
+NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")]
 
 
 @command.command("list")
 def list_(
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for a page with pictures, and each record as YAML and URDF.", show_default=False),
-    ] = None,
+    out: Annotated[Path | None, "Folder for a page with pictures, and each record as YAML and URDF."] = None,
     json_: JsonOption = False,
 ) -> None:
     """List all records, with what no arm can beat.
@@ -40,7 +39,7 @@ def list_(
 @command.command()
 def show(
     record: NameArgument,
-    urdf: Annotated[bool, typer.Option("--urdf", help="Its arm as URDF, for simulators, instead.")] = False,
+    urdf: Annotated[bool, "Its arm as URDF, for simulators, instead."] = False,
 ) -> None:
     """Show a record as the file that it is; a submission is such a file.
 
@@ -53,30 +52,26 @@ def show(
 @command.command()
 def new(
     arm: ArmArgument,
-    task: Annotated[str, typer.Option("--task", help="planar, position or pose.")] = "pose",
-    failures: Annotated[int, typer.Option("--failures", help="Joints that lock at once.")] = 1,
-    at: Annotated[str | None, typer.Option("--at", help="Joint values, rad. Default: zeros.", show_default=False)] = None,
-    name: Annotated[str, typer.Option("--name", help="Id of the record. Default: from the class.", show_default=False)] = "",
-    by: Annotated[str, typer.Option("--by", help="Who found it.")] = "anonymous",
-    how: Annotated[
-        str, typer.Option("--how", help="How, so that others can follow. Default: not said.", show_default=False)
-    ] = "",
+    task: Annotated[str, "planar, position or pose."] = "pose",
+    failures: Annotated[int, "Joints that lock at once."] = 1,
+    at: Annotated[str | None, "Joint values, rad. Default: zeros."] = None,
+    name: Annotated[str, "Id of the record. Default: from the class."] = "",
+    by: Annotated[str, "Who found it."] = "anonymous",
+    how: Annotated[str, "How, so that others can follow. Default: not said."] = "",
 ) -> None:
     """Print an arm as a record: a file to check, to keep and to submit.
 
     Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
     """
-    model = read_arm(arm, None, None)
+    model = Chain().arm(arm)
     q = None if at is None else read_configuration(model, at, False, "--at")
     typer.echo(hf.designs.new_record(model, task, failures, q=q, name=name, by=by, how=how).text, nl=False)
 
 
 @command.command()
 def check(
-    record: Annotated[
-        str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.", show_default=False)
-    ] = None,
-    all_: Annotated[bool, typer.Option("--all", help="All records of the book.")] = False,
+    record: Annotated[str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")] = None,
+    all_: Annotated[bool, "All records of the book."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Measure a record again, by code that shares nothing with what found it.

@@ -4,24 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    DegreesOption,
-    GravityOption,
-    HoldOption,
-    JsonOption,
-    MountOption,
-    PayloadOption,
-    QOption,
-    TipOption,
-    placed,
-    read_arm,
-    read_configuration,
-    read_weights,
-)
+from holdfast.cli.groups import Chain, Placement
+from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption, QOption
+from holdfast.cli.values import read_configuration, read_weights
 from holdfast.present.printing import print_each
 from holdfast.registry import SUSCEPTIBILITIES
 
@@ -29,23 +14,15 @@ from holdfast.registry import SUSCEPTIBILITIES
 def command(
     arm: ArmArgument,
     q: QOption,
-    measure: Annotated[str, typer.Option("--measure", help=f"{SUSCEPTIBILITIES.usage}.")] = "torque",
+    measure: Annotated[str, f"{SUSCEPTIBILITIES.usage}."] = "torque",
     weights: Annotated[
         str | None,
-        typer.Option(
-            "--weights",
-            help="effort, worst-case, one number per joint as 1,2,3, or a CSV file of them or of a square matrix. "
-            "Default: all joints alike.",
-            show_default=False,
-        ),
+        "effort, worst-case, one number per joint as 1,2,3, or a CSV file of them or of a square matrix. "
+        "Default: all joints alike.",
     ] = None,
-    mount: MountOption = "floor",
-    gravity: GravityOption = None,
-    payload: PayloadOption = None,
+    placement: Placement = Placement(),
     degrees: DegreesOption = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Evaluate how much a free-swinging failure of each joint would do at a configuration; smaller is better.
@@ -55,7 +32,7 @@ def command(
     from holdfast.indices.susceptibility.measure import by_name
     from holdfast.present.indices.console import show_susceptibility, susceptibility_values
 
-    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
+    model = placement.of(chain.arm(arm))
     configurations = [read_configuration(model, text, degrees) for text in q]
     chosen = by_name(measure, model, None if weights is None else read_weights("--weights", weights))
     print_each(chosen, configurations, json_, susceptibility_values, show_susceptibility)

@@ -16,18 +16,14 @@ from holdfast.present.results import printed, printed_each
 
 
 def command(
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="Numbers, a row of the matrix a line (CSV).", show_default=False)
-    ],
-    task: Annotated[str, typer.Option("--task", help="planar, position or pose.")] = "pose",
-    null_space: Annotated[
-        bool, typer.Option("--null-space", help="The file is a null space, a row for each joint, not a Jacobian.")
-    ] = False,
-    failures: Annotated[int, typer.Option("--failures", help="Joints that lock at once.")] = 1,
-    starts: Annotated[int, typer.Option("--starts", help="Starts of the search for axes.")] = 12,
-    judge: Annotated[bool, typer.Option("--judge", help="Judge all orders of the axes of the best arm, too: poses.")] = False,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Numbers, a row of the matrix a line (CSV).")],
+    task: Annotated[str, "planar, position or pose."] = "pose",
+    null_space: Annotated[bool, "The file is a null space, a row for each joint, not a Jacobian."] = False,
+    failures: Annotated[int, "Joints that lock at once."] = 1,
+    starts: Annotated[int, "Starts of the search for axes."] = 12,
+    judge: Annotated[bool, "Judge all orders of the axes of the best arm, too: poses."] = False,
     seed: SeedOption = 0,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder for the arms, as YAML.", show_default=False)] = None,
+    out: Annotated[Path | None, "Folder for the arms, as YAML."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Make revolute arms that have a Jacobian, or a null space, at the configuration of zeros.

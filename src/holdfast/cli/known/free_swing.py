@@ -4,63 +4,29 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    DegreesOption,
-    HoldOption,
-    JsonOption,
-    MotionCsvOption,
-    OutOption,
-    PlotOption,
-    TipOption,
-    read_arm,
-    read_configuration,
-    read_joint,
-)
-from holdfast.present.results import drawn, printed
+from holdfast.cli.clearance import Touched
+from holdfast.cli.groups import Chain, Output
+from holdfast.cli.options import ArmArgument, DegreesOption, MotionCsvOption
+from holdfast.cli.values import read_configuration, read_joint
 
 
 def command(
     arm: ArmArgument,
-    q: Annotated[str, typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces.", show_default=False)],
-    joint: Annotated[
-        str, typer.Option("--joint", help="The joint that swings free, by name or number from 1.", show_default=False)
-    ],
+    q: Annotated[str, "Joint values, rad and m, separated by commas or spaces."],
+    joint: Annotated[str, "The joint that swings free, by name or number from 1."],
     damping: Annotated[
         float | None,
-        typer.Option(
-            "--damping",
-            help="Viscous friction, N m s/rad or N s/m. Default: the joint's own, or 10 % of critical if it has next to none.",
-            show_default=False,
-        ),
+        "Viscous friction, N m s/rad or N s/m. Default: the joint's own, or 10 % of critical if it has next to none.",
     ] = None,
-    brake: Annotated[
-        list[float] | None,
-        typer.Option("--brake", help="Brakes engage after so many ms. May be given again.", show_default="50, 100 and 200"),
-    ] = None,
-    limits: Annotated[
-        bool, typer.Option("--limits", help="The joint's limits stop it (those of prismatic joints always do).")
-    ] = False,
-    duration: Annotated[
-        float | None, typer.Option("--duration", help="Longest time, s. Default: until it is at rest.", show_default=False)
-    ] = None,
-    cell: TouchedCellOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
+    brake: Annotated[list[float] | None, "Brakes engage after so many ms. May be given again.", "50, 100 and 200"] = None,
+    limits: Annotated[bool, "The joint's limits stop it (those of prismatic joints always do)."] = False,
+    duration: Annotated[float | None, "Longest time, s. Default: until it is at rest."] = None,
+    touched: Touched = Touched(),
     degrees: DegreesOption = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     csv: MotionCsvOption = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    output: Output = Output(),
 ) -> None:
     """Simulate one joint swinging free under gravity, all others held (needs the extra 'physics').
 
@@ -70,7 +36,7 @@ def command(
     """
     from holdfast.physics.swing import BRAKES
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     swing = hf.free_swing(
         model,
         read_configuration(model, q, degrees),
@@ -79,6 +45,6 @@ def command(
         duration=duration,
         brake_after=tuple(brake) if brake else BRAKES,
         limits=limits,
-        clearance=read_contact_shape(model, capsules, radius, cell, meshes),
+        clearance=touched.read(model),
     )
-    printed(swing, json_, ([] if csv is None else [swing.to_csv(csv)]) + drawn(swing, plot, out))
+    output.printed(swing, [] if csv is None else [swing.to_csv(csv)])

@@ -8,50 +8,26 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import (
-    NOT_MET,
-    ArmArgument,
-    BaseOption,
-    HoldOption,
-    JsonOption,
-    OutOption,
-    PlotOption,
-    SeedOption,
-    TaskOption,
-    TipOption,
-    read_arm,
-    read_configuration,
-    read_joint,
-    read_task,
-)
+from holdfast.cli.groups import Chain, Output
+from holdfast.cli.options import NOT_MET, ArmArgument, SeedOption, TaskOption
+from holdfast.cli.values import read_configuration, read_joint, read_task
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import printed
 
 
 def command(
     arm: ArmArgument,
-    at: Annotated[
-        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
-    ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
-    suspects: Annotated[
-        str | None, typer.Option("--suspects", help="Joints that may be locked, by commas. Default: all.", show_default=False)
-    ] = None,
-    record: Annotated[
-        Path | None,
-        typer.Option("--record", help="Decide: a record of the motion with the tool's pose (.npz, .csv).", show_default=False),
-    ] = None,
+    at: Annotated[str | None, "Current joint values, rad and m, by commas or spaces."] = None,
+    degrees: Annotated[bool, "--at is in degrees (prismatic joints stay in m)."] = False,
+    suspects: Annotated[str | None, "Joints that may be locked, by commas. Default: all."] = None,
+    record: Annotated[Path | None, "Decide: a record of the motion with the tool's pose (.npz, .csv)."] = None,
     task: TaskOption = None,
-    duration: Annotated[float, typer.Option("--duration", help="Of each leg, at most, s.")] = 5.0,
-    speed: Annotated[float, typer.Option("--speed", help="Norm of the joint rates, rad/s and m/s.")] = 0.25,
+    duration: Annotated[float, "Of each leg, at most, s."] = 5.0,
+    speed: Annotated[float, "Norm of the joint rates, rad/s and m/s."] = 0.25,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    chain: Chain = Chain(),
+    csv: Annotated[Path | None, "Write the motion to this file."] = None,
+    output: Output = Output(),
 ) -> None:
     """Plan a self-motion that tells which joint is locked, from the tool's pose alone; or decide from a record of it.
 
@@ -60,13 +36,13 @@ def command(
 
     Example: holdfast probe panda --at "0 -0.4 0.3 -2 0.2 1.8 0.5" --csv probe.csv
     """
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     chosen = None if suspects is None else [read_joint(model, text) for text in suspects.split(",")]
     if (at is None) == (record is None):
         raise InputError("give --at to plan, or --record to decide, one of them")
     if record is not None:
         finding = hf.diagnosis.decide(model, hf.faults.Log.load(record), suspects=chosen)
-        printed(finding, json_)
+        printed(finding, output.json_)
         if finding.remaining != ("none",):
             raise typer.Exit(NOT_MET)
         return
@@ -79,4 +55,4 @@ def command(
         speed=speed,
         seed=seed,
     )
-    printed(found, json_, ([] if csv is None else [found.to_csv(csv)]) + drawn(found, plot, out))
+    output.printed(found, [] if csv is None else [found.to_csv(csv)])

@@ -9,19 +9,11 @@ import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.cli import clearance as apart
-from holdfast.cli.options import (
-    NOT_MET,
-    TASK_HELP,
-    ArmArgument,
-    BaseOption,
-    FailureOption,
-    HoldOption,
-    JsonOption,
-    KeepOption,
-    TipOption,
-    check_unit_of_places,
-    read_arm,
+from holdfast.cli.clearance import Apart
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import NOT_MET, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
+from holdfast.cli.values import (
+    check_unit_of_path,
     read_by_joint,
     read_configuration,
     read_locks,
@@ -41,97 +33,44 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     lock: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--lock",
-            help="JOINT=ANGLE (rad or m), or JOINT: it is locked at its value in --at. May be given again.",
-            show_default=False,
-        ),
+        list[str] | None, "JOINT=ANGLE (rad or m), or JOINT: it is locked at its value in --at. May be given again."
     ] = None,
     failure: FailureOption = None,
-    at: Annotated[
-        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
-    ] = None,
+    at: Annotated[str | None, "Current joint values, rad and m, by commas or spaces."] = None,
     goal: Annotated[
         str | None,
-        typer.Option(
-            "--goal",
-            help="home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
-            "';'. Default: home; with --path none.",
-            show_default=False,
-        ),
+        "home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
+        "';'. Default: home; with --path none.",
     ] = None,
-    task: Annotated[
-        str | None, typer.Option("--task", help=f"{TASK_HELP} home and q: then mean the tool's pose there.", show_default=False)
-    ] = None,
-    path: Annotated[
-        Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.", show_default=False)
-    ] = None,
+    task: Annotated[str | None, f"{TASK_HELP} home and q: then mean the tool's pose there."] = None,
+    path: Annotated[Path | None, "Rest of the path (YAML file), to be finished first."] = None,
     keep: KeepOption = None,
-    degrees: Annotated[
-        bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
-    ] = False,
-    metric: Annotated[
-        str, typer.Option("--metric", help="Shortest by: travel (of the joints) or time (at the velocity limits).")
-    ] = "travel",
+    degrees: Annotated[bool, "--at, --lock and q: are in degrees (prismatic joints stay in m)."] = False,
+    metric: Annotated[str, "Shortest by: travel (of the joints) or time (at the velocity limits)."] = "travel",
     region: Annotated[
-        Path | None,
-        typer.Option(
-            "--region",
-            help="Region (YAML file) whose remaining part is reported. Default: random poses of the healthy arm.",
-            show_default=False,
-        ),
+        Path | None, "Region (YAML file) whose remaining part is reported. Default: random poses of the healthy arm."
     ] = None,
     samples: Annotated[int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips what is left.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
-    time_limit: Annotated[
-        float | None, typer.Option("--time-limit", help="s after which nothing more is searched for.", show_default=False)
-    ] = None,
+    time_limit: Annotated[float | None, "s after which nothing more is searched for."] = None,
     tolerance: Annotated[
-        str | None,
-        typer.Option(
-            "--tolerance",
-            help="By which each row may be missed without harm, for example 1mm,0.5deg: proofs are tried for that too.",
-            show_default=False,
-        ),
+        str | None, "By which each row may be missed without harm, for example 1mm,0.5deg: proofs are tried for that too."
     ] = None,
     accelerations: Annotated[
         str | None,
-        typer.Option(
-            "--accelerations",
-            help="Limits, rad/s^2 and m/s^2, within which the motion is timed: a number, one per joint, or JOINT=NUMBER by "
-            "commas.",
-            show_default=False,
-        ),
+        "Limits, rad/s^2 and m/s^2, within which the motion is timed: a number, one per joint, or JOINT=NUMBER by commas.",
     ] = None,
-    period: Annotated[float, typer.Option("--period", help="s between the rows of a motion timed so.")] = 0.01,
+    period: Annotated[float, "s between the rows of a motion timed so."] = 0.01,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
-    clearance: apart.ClearanceOption = None,
-    capsules: apart.CapsulesOption = None,
-    radius: apart.RadiusOption = None,
-    meshes: apart.MeshesOption = None,
-    margin: apart.MarginOption = None,
-    cell: apart.CellOption = None,
-    check: Annotated[
-        Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.", show_default=False)
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for report.html, recovery.json, waypoints.csv and pictures.", show_default=False),
-    ] = None,
+    apart: Apart = Apart(),
+    check: Annotated[Path | None, "Plan nothing; check these waypoints (CSV) by a replay."] = None,
+    out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and pictures."] = None,
     certificate: Annotated[
-        Path | None,
-        typer.Option(
-            "--certificate",
-            help="Write the proof that the goal has no configuration to this file, for holdfast certificate check.",
-            show_default=False,
-        ),
+        Path | None, "Write the proof that the goal has no configuration to this file, for holdfast certificate check."
     ] = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.", show_default=False)] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    csv: Annotated[Path | None, "Write the waypoints to this file."] = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """A joint has locked or moves less: report what is left of the workspace, whether the task can be finished, and how.
@@ -140,9 +79,9 @@ def command(
 
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
-    apart.check_clearance(clearance, capsules, radius, margin, cell)
-    model = read_arm(arm, base, tip, hold)
-    shape = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes)
+    apart.check()
+    model = chain.arm(arm)
+    shape = apart.read(model)
     most = None if accelerations is None else _accelerations(model, accelerations)
     if check is not None:
         locked = read_locks(model, lock, degrees, alone=True, failure=failure) if lock or failure else ()
@@ -151,7 +90,7 @@ def command(
             hf.recovery.read_waypoints(model, check),
             locked,
             clearance=shape,
-            margin=margin or 0.0,
+            margin=apart.margin or 0.0,
             keep=keep,
             time=hf.recovery.read_times(model, check),
             accelerations=most,
@@ -164,18 +103,18 @@ def command(
         raise InputError("give --at, the current joint values, for example --at " + ",".join("0" * model.n))
     aim, positions = _goal(model, goal or ("home" if path is None else ""), degrees)
     chosen = None if task is None else read_task(task, arm, model)
-    hand_path = None if path is None else hf.paths.Path.load(path)
-    if hand_path is not None:
-        check_unit_of_places(model, hand_path.pose(np.linspace(0, 1, 21))[:, :3, 3], "--path")
+    rest = None if path is None else hf.paths.Path.load(path)
+    if rest is not None:
+        check_unit_of_path(model, rest, "--path")
     result = hf.recover(
         model,
         read_locks(model, lock, degrees, alone=True, failure=failure),
         read_configuration(model, at, degrees, "--at"),
         goal=aim,
         task=_position_task(model, chosen) if positions else chosen,
-        path=hand_path,
+        path=rest,
         clearance=shape or False,
-        margin=margin or 0.0,
+        margin=apart.margin or 0.0,
         keep=keep,
         metric=metric,  # type: ignore[arg-type]
         region=None if region is None else hf.Region.load(region),

@@ -7,39 +7,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import typer
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.cli import clearance as apart
-from holdfast.cli.options import (
-    TARGET_HELP,
-    ArmArgument,
-    BaseOption,
-    HoldOption,
-    JsonOption,
-    OutOption,
-    PlotOption,
-    SeedOption,
-    TaskOption,
-    TipOption,
-    read_arm,
-    read_pose,
-    read_target,
-    read_task,
-)
+from holdfast.cli.clearance import Apart
+from holdfast.cli.groups import Chain, Output
+from holdfast.cli.options import TARGET_HELP, ArmArgument, SeedOption, TaskOption
+from holdfast.cli.values import read_pose, read_target, read_task
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
 
-PoseOption = Annotated[
-    str | None,
-    typer.Option("--pose", help="The target as x,y,z,roll,pitch,yaw of the tool, m and degrees.", show_default=False),
-]
-TargetOption = Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)]
+PoseOption = Annotated[str | None, "The target as x,y,z,roll,pitch,yaw of the tool, m and degrees."]
+TargetOption = Annotated[str | None, TARGET_HELP]
 
 
 def command(
@@ -47,25 +29,14 @@ def command(
     target: TargetOption = None,
     pose: PoseOption = None,
     task: TaskOption = None,
-    bounds: Annotated[
-        bool, typer.Option("--bounds", help="Also report where each joint may lock without losing the target.")
-    ] = False,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (prismatic joints stay in m).")] = False,
-    spacing: Annotated[float, typer.Option("--spacing", help="Spacing of the points, rad.")] = 0.05,
+    bounds: Annotated[bool, "Also report where each joint may lock without losing the target."] = False,
+    degrees: Annotated[bool, "--csv in degrees (prismatic joints stay in m)."] = False,
+    spacing: Annotated[float, "Spacing of the points, rad."] = 0.05,
     seed: SeedOption = 0,
-    clearance: apart.ClearanceOption = None,
-    capsules: apart.CapsulesOption = None,
-    radius: apart.RadiusOption = None,
-    meshes: apart.MeshesOption = None,
-    margin: apart.MarginOption = None,
-    cell: apart.CellOption = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    csv: Annotated[Path | None, typer.Option("--csv", help="Write all points to this file.", show_default=False)] = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    apart: Apart = Apart(),
+    chain: Chain = Chain(),
+    csv: Annotated[Path | None, "Write all points to this file."] = None,
+    output: Output = Output(),
 ) -> None:
     """Find all configurations for one target, and the values at which each joint may lock without losing it.
 
@@ -76,20 +47,20 @@ def command(
     """
     from holdfast.arm.task import as_task
 
-    apart.check_clearance(clearance, capsules, radius, margin, cell)
-    model = read_arm(arm, base, tip, hold)
+    apart.check()
+    model = chain.arm(arm)
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
     wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
-    asked = margin is not None or cell is not None
-    kept = apart.read_clearance(model, clearance, capsules, radius, margin, chooses=asked, cell=cell, meshes=meshes)
-    motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed, clearance=kept, margin=margin or 0.0)
+    asked = apart.margin is not None or apart.cell is not None
+    kept = apart.read(model, chooses=asked)
+    motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed, clearance=kept, margin=apart.margin or 0.0)
     if kept is not None and (bounds or motion.redundancy == 1):
         motion = replace(motion, bounds=motion.arcs())
-    elif kept is None and (bounds or plot is not None or out is not None):
+    elif kept is None and (bounds or output.plot is not None or output.out is not None):
         motion = replace(motion, bounds=hf.joint_bounds(model, wanted, rows, seed=seed))
-    printed(motion, json_, ([] if csv is None else [motion.to_csv(csv, degrees)]) + drawn(motion, plot, out))
+    output.printed(motion, [] if csv is None else [motion.to_csv(csv, degrees)])
 
 
 def _pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:

@@ -5,25 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import typer
 
 import holdfast as hf
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    HoldOption,
-    JsonOption,
-    OutOption,
-    PlotOption,
-    SeedOption,
-    TipOption,
-    read_arm,
-    read_joint,
-    read_numbers,
-    read_task,
-)
+from holdfast.cli.groups import Chain, Output
+from holdfast.cli.options import ArmArgument, SeedOption
+from holdfast.cli.values import read_joint, read_numbers, read_task
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -31,34 +18,17 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    task: Annotated[
-        str | None,
-        typer.Option("--task", help="planar, position, or with turns (see --rotation). Default: planar or position."),
-    ] = None,
+    task: Annotated[str | None, "planar, position, or with turns (see --rotation). Default: planar or position."] = None,
     limit: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--limit",
-            help="JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own.",
-            show_default=False,
-        ),
+        list[str] | None, "JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own."
     ] = None,
-    optimise: Annotated[
-        bool, typer.Option("--optimise", help="Find the artificial limits that make the region largest.")
-    ] = False,
-    rotation: Annotated[
-        str | None,
-        typer.Option("--rotation", help="Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg.", show_default=False),
-    ] = None,
-    points: Annotated[int, typer.Option("--points", help="Points in the sample (not for planar arms of three joints).")] = 1000,
-    angles: Annotated[int, typer.Option("--angles", help="Locked values tried per joint.")] = 24,
+    optimise: Annotated[bool, "Find the artificial limits that make the region largest."] = False,
+    rotation: Annotated[str | None, "Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg."] = None,
+    points: Annotated[int, "Points in the sample (not for planar arms of three joints)."] = 1000,
+    angles: Annotated[int, "Locked values tried per joint."] = 24,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    chain: Chain = Chain(),
+    output: Output = Output(),
 ) -> None:
     """Find every point that the arm reaches before and after any single joint locks, under artificial joint limits.
 
@@ -67,7 +37,7 @@ def command(
     from holdfast.arm.task import plane_normal
     from holdfast.arm.urdf import rpy_rotation
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     rows = read_task(task, arm, model) if task else "planar" if plane_normal(model) is not None else "position"
     limits = {read_joint(model, text.partition("=")[0]): _limit(model, text) for text in limit or []}
     turn = None
@@ -79,7 +49,7 @@ def command(
     region = hf.tolerant_workspace(
         model, rows, limits or None, optimise=optimise, rotation=turn, points=points, angles=angles, seed=seed
     )
-    printed(region, json_, drawn(region, plot, out))
+    output.printed(region)
 
 
 def _limit(arm: Arm, text: str) -> tuple[float, float]:

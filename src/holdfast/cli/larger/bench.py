@@ -9,8 +9,9 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.clearance import CellOption
+from holdfast.cli.groups import Chain
 from holdfast.cli.larger.study import chunks_progress, stopping
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
+from holdfast.cli.options import ArmArgument, JsonOption
 from holdfast.present.results import printed, said
 
 command = typer.Typer(name="bench", help="Suites of cases, for comparing planners.", no_args_is_help=True)
@@ -24,29 +25,20 @@ def _root() -> None:
 @command.command("fail-active")
 def fail_active(
     arm: ArmArgument = "panda",
-    out: Annotated[Path, typer.Option("--out", help="Folder for the cases and results.", show_default=False)] = Path(
-        "fail-active"
-    ),
+    out: Annotated[Path, "Folder for the cases and results."] = Path("fail-active"),
     cases: Annotated[
         int, typer.Option("--cases", min=1, help="Cases of each task that reaches a pose; of the others a tenth.")
     ] = 1000,
-    task: Annotated[
-        list[str] | None, typer.Option("--task", help="Only this one; may be given again.", show_default=False)
-    ] = None,
+    task: Annotated[list[str] | None, "Only this one; may be given again."] = None,
     planner: Annotated[
         list[str] | None,
-        typer.Option(
-            "--planner",
-            help="recover, differential-ik, differential-ik-8-starts, rrt-connect or ompl-rrt-connect; may be given again.",
-            show_default="recover",
-        ),
+        "recover, differential-ik, differential-ik-8-starts, rrt-connect or ompl-rrt-connect; may be given again.",
+        "recover",
     ] = None,
     cell: CellOption = None,
-    seconds: Annotated[float, typer.Option("--seconds", help="Time limit of a case, on one thread.")] = 10.0,
+    seconds: Annotated[float, "Time limit of a case, on one thread."] = 10.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same cases.")] = 1,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, tray, upright.
@@ -55,7 +47,7 @@ def fail_active(
 
     Example: holdfast bench fail-active panda --cases 100 --task reach-pose --task line --out fail-active
     """
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     with stopping() as stop, chunks_progress(json_) as progress:
         found = hf.bench.fail_active(
             model,

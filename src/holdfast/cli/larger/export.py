@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 import holdfast as hf
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, law_of
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TaskOption, TipOption
+from holdfast.cli.options import ArmArgument, JsonOption, TaskOption
 from holdfast.errors import InputError
 from holdfast.present.results import printed
 
@@ -18,26 +17,14 @@ LANGUAGES = ("c",)
 
 def command(
     arm: ArmArgument,
-    out: Annotated[Path, typer.Option("--out", help="Folder for the files; made if it is not there.", show_default=False)],
+    out: Annotated[Path, "Folder for the files; made if it is not there."],
     law: LawOption = "failure-tolerant",
-    language: Annotated[str, typer.Option("--language", help="c: C99 that needs only math.h.")] = "c",
-    name: Annotated[
-        str | None, typer.Option("--name", help="Name of the function and the files. Default: the law's.", show_default=False)
-    ] = None,
+    language: Annotated[str, "c: C99 that needs only math.h."] = "c",
+    name: Annotated[str | None, "Name of the function and the files. Default: the law's."] = None,
     task: TaskOption = None,
-    monitor: Annotated[
-        Path | None,
-        typer.Option(
-            "--monitor", help="Bounds of calibrate: also a monitor of joint faults, NAME_monitor.", show_default=False
-        ),
-    ] = None,
-    controller: Annotated[
-        bool,
-        typer.Option("--controller", help="With --monitor: also a controller in C++17 that reacts to it, NAME_controller."),
-    ] = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    monitor: Annotated[Path | None, "Bounds of calibrate: also a monitor of joint faults, NAME_monitor."] = None,
+    controller: Annotated[bool, "With --monitor: also a controller in C++17 that reacts to it, NAME_controller."] = False,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Write a control law as code for a robot's own controller.
@@ -48,7 +35,7 @@ def command(
         raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
     if controller and monitor is None:
         raise InputError("--controller needs --monitor BOUNDS, which 'holdfast calibrate' makes")
-    chosen = law_of(law, arm, task, base, tip, hold)
+    chosen = law_of(law, arm, task, chain)
     files = chosen.export_c(out, name)
     watching: list[Path] = []
     if monitor is not None:

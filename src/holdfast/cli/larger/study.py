@@ -10,7 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
-from holdfast.cli.options import BasesOption, HoldsOption, JsonOption, NamesOption, TipsOption, each_arm
+from holdfast.cli.groups import Chains
+from holdfast.cli.options import JsonOption
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.notice import working
@@ -23,31 +24,21 @@ command = typer.Typer(
     no_args_is_help=True,
 )
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.", show_default=False)]
-FoldersArgument = Annotated[
-    list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.", show_default=False)
-]
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.")]
+FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.")]
 
 
 @command.command()
 def new(
     file: FileArgument,
-    arm: Annotated[list[str], typer.Option("--arm", help="Built-in name or arm file; may be given again.", show_default=False)],
-    poses: Annotated[int, typer.Option("--poses", help="Samples of each cell.")] = 2000,
-    chunk: Annotated[int, typer.Option("--chunk", help="Samples computed and committed together.")] = 500,
-    seed: Annotated[int, typer.Option("--seed", help="The same seed gives the same bits.")] = 0,
-    index: Annotated[
-        list[str] | None, typer.Option("--index", help="May be given again.", show_default="relative-manipulability")
-    ] = None,
-    law: Annotated[
-        list[str] | None,
-        typer.Option("--law", help="Also maps of convergence under this control law; may be given again.", show_default=False),
-    ] = None,
-    optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
-    base: BasesOption = None,
-    tip: TipsOption = None,
-    hold: HoldsOption = None,
-    name: NamesOption = None,
+    arm: Annotated[list[str], "Built-in name or arm file; may be given again."],
+    poses: Annotated[int, "Samples of each cell."] = 2000,
+    chunk: Annotated[int, "Samples computed and committed together."] = 500,
+    seed: Annotated[int, "The same seed gives the same bits."] = 0,
+    index: Annotated[list[str] | None, "May be given again.", "relative-manipulability"] = None,
+    law: Annotated[list[str] | None, "Also maps of convergence under this control law; may be given again."] = None,
+    optimise: Annotated[bool, "Also the best configuration of each pose."] = False,
+    chains: Chains = Chains(),
 ) -> None:
     """Write a study file with comments, to edit and run.
 
@@ -57,7 +48,7 @@ def new(
 
     usual = ["relative-manipulability"]
     indices = usual if index is None else index
-    files = each_arm(arm, base, tip, hold, name)
+    files = chains.arms(arm)
     written = write(file, files, poses, chunk, seed, indices, law or [], optimise)
     typer.echo(f"written: {written}")
 
@@ -65,27 +56,18 @@ def new(
 @command.command()
 def run(
     file: FileArgument,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results; a stopped study resumes.", show_default=False)
-    ] = None,
+    out: Annotated[Path | None, "Folder for the results; a stopped study resumes."] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option(
-            "--scheduler",
-            help="Compute on Dask: the address of its scheduler (tcp://HOST:8786), its scheduler file, or local:4 for four "
-            "worker processes of this machine.",
-            show_default="threads of this process",
-        ),
+        "Compute on Dask: the address of its scheduler (tcp://HOST:8786), its scheduler file, or local:4 for four "
+        "worker processes of this machine.",
+        "threads of this process",
     ] = None,
     threads: Annotated[
         int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
     ] = None,
-    part: Annotated[
-        str, typer.Option("--part", help="1/3: only the first of three parts, for machines that share no folder; see merge.")
-    ] = "1/1",
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Say what would be computed, how long it takes and how large it is.")
-    ] = False,
+    part: Annotated[str, "1/3: only the first of three parts, for machines that share no folder; see merge."] = "1/1",
+    dry_run: Annotated[bool, "Say what would be computed, how long it takes and how large it is."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Compute what is missing of a study. Ctrl-C stops after the current chunks; the same command resumes.
@@ -158,7 +140,7 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
 @command.command()
 def merge(
     folders: FoldersArgument,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder to merge into.", show_default="the first DIR")] = None,
+    out: Annotated[Path | None, "Folder to merge into.", "the first DIR"] = None,
     json_: JsonOption = False,
 ) -> None:
     """Join folders of one study from machines that shared no folder.
@@ -180,7 +162,7 @@ def merge(
 @command.command()
 def report(
     folders: FoldersArgument,
-    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    to: Annotated[Path | None, "HTML file. Default: DIR/report.html."] = None,
     json_: JsonOption = False,
 ) -> None:
     """One HTML page: a table of arms, indices and laws with intervals, distributions side by side, and how it was computed.

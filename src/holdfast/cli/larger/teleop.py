@@ -17,7 +17,7 @@ from holdfast.present.teleop.console import show_allocation, show_experiment, sh
 
 DIFFERS = 3  # exit code: it worked, and not every trial came out as it was recorded
 
-FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.", show_default=False)]
+FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.")]
 ProtocolArgument = Annotated[
     str, typer.Argument(metavar="[PROTOCOL]", help="goel2003, goel2003-smooth, or a protocol file (YAML).")
 ]
@@ -31,11 +31,11 @@ command = typer.Typer(
 
 @command.command()
 def run(
-    out: Annotated[Path, typer.Option("--out", help="New folder for the records.", show_default=False)],
-    simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
+    out: Annotated[Path, "New folder for the records."],
+    simulated: Annotated[bool, "With simulated people."] = False,
     operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
-    protocol: Annotated[str, typer.Option("--protocol", help="goel2003, goel2003-smooth, or a file (YAML).")] = "goel2003",
+    protocol: Annotated[str, "goel2003, goel2003-smooth, or a file (YAML)."] = "goel2003",
 ) -> None:
     """Run and record a whole experiment with simulated people, from training to the last rating.
 
@@ -62,15 +62,10 @@ def analyse(
     groups: Annotated[int, typer.Option("--groups", min=2, help="Number of groups of difficulty.")] = 3,
     missing: Annotated[
         str,
-        typer.Option(
-            "--missing",
-            help="If a subject has completed no trial in a cell: refuse, complete (leave out such subjects) or mixed (a "
-            "mixed model of single trials).",
-        ),
+        "If a subject has completed no trial in a cell: refuse, complete (leave out such subjects) or mixed (a "
+        "mixed model of single trials).",
     ] = "refuse",
-    difficulty: Annotated[
-        str, typer.Option("--difficulty", help="Whose CPM the tasks are sorted by: operators (their median) or computer.")
-    ] = "operators",
+    difficulty: Annotated[str, "Whose CPM the tasks are sorted by: operators (their median) or computer."] = "operators",
 ) -> None:
     """Statistics of an experiment: writes DIR/report.html, and every table as CSV beside it.
 
@@ -128,7 +123,7 @@ def verify(folder: FolderArgument) -> None:
 @command.command()
 def backup(
     folder: FolderArgument,
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.", show_default=False)],
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")],
 ) -> None:
     """Copy the folder of an experiment, also while it is served, and verify the copy.
 
@@ -144,8 +139,8 @@ def backup(
 @command.command()
 def export(
     folder: FolderArgument,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder for the tables.", show_default="DIR/export")] = None,
-    parquet: Annotated[bool, typer.Option("--parquet", help="Parquet in place of CSV; needs pyarrow.")] = False,
+    out: Annotated[Path | None, "Folder for the tables.", "DIR/export"] = None,
+    parquet: Annotated[bool, "Parquet in place of CSV; needs pyarrow."] = False,
 ) -> None:
     """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol.
 
@@ -166,7 +161,7 @@ def allocation(
     subjects: Annotated[
         int | None, typer.Option("--subjects", min=1, help="How many sheets.", show_default="the protocol's number")
     ] = None,
-    out: Annotated[Path | None, typer.Option("--out", help="Write a sheet to print (HTML).", show_default=False)] = None,
+    out: Annotated[Path | None, "Write a sheet to print (HTML)."] = None,
 ) -> None:
     """Print who does which task when and in which order of scenarios, as sheets to tick.
 
@@ -186,13 +181,8 @@ def allocation(
 @command.command()
 def subjects(
     folder: FolderArgument,
-    drop: Annotated[
-        str | None,
-        typer.Option("--drop", help="This subject will not come back: the row is given to someone else.", show_default=False),
-    ] = None,
-    delete: Annotated[
-        str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.", show_default=False)
-    ] = None,
+    drop: Annotated[str | None, "This subject will not come back: the row is given to someone else."] = None,
+    delete: Annotated[str | None, "Delete this subject and everything recorded, for good."] = None,
 ) -> None:
     """List the subjects of an experiment and how far their sessions are.
 
@@ -220,9 +210,7 @@ def subjects(
 @command.command("protocol")
 def protocol_(
     protocol: ProtocolArgument = "goel2003",
-    write: Annotated[
-        Path | None, typer.Option("--write", help="Copy it to this file, to start from.", show_default=False)
-    ] = None,
+    write: Annotated[Path | None, "Copy it to this file, to start from."] = None,
 ) -> None:
     """Check a protocol and summarise it.
 

@@ -16,21 +16,10 @@ _TLS = """Between computers use TLS, as browsers allow gamepads and passwords on
 
 
 def serve(
-    data: Annotated[
-        Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new one begins it.", show_default=False)
-    ],
-    protocol: Annotated[
-        str | None,
-        typer.Option(
-            "--protocol",
-            help="goel2003, goel2003-smooth, or a file (YAML), for a new folder. Default: goel2003.",
-            show_default=False,
-        ),
-    ] = None,
+    data: Annotated[Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new one begins it.")],
+    protocol: Annotated[str | None, "goel2003, goel2003-smooth, or a file (YAML), for a new folder. Default: goel2003."] = None,
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; 0 takes any free one.")] = 8000,
-    host: Annotated[
-        str, typer.Option("--host", help="Address to listen at; others than this computer's need a token.")
-    ] = "127.0.0.1",
+    host: Annotated[str, "Address to listen at; others than this computer's need a token."] = "127.0.0.1",
     token: Annotated[
         str | None,
         typer.Option(
@@ -38,16 +27,11 @@ def serve(
             help="Stations must show it: 12 random letters, digits, - or _, or more. Anyone who lists processes can read "
             "it here; the environment or a file is safer.",
             envvar="HOLDFAST_TOKEN",
-            show_default=False,
         ),
     ] = None,
-    token_file: Annotated[
-        Path | None, typer.Option("--token-file", help="File whose first line is the token.", show_default=False)
-    ] = None,
-    texts: Annotated[
-        Path | None, typer.Option("--texts", help="Translation of the page's texts (YAML).", show_default=False)
-    ] = None,
-    tlx: Annotated[bool, typer.Option("--tlx", help="Ask for the NASA task load index.")] = False,
+    token_file: Annotated[Path | None, "File whose first line is the token."] = None,
+    texts: Annotated[Path | None, "Translation of the page's texts (YAML)."] = None,
+    tlx: Annotated[bool, "Ask for the NASA task load index."] = False,
 ) -> None:
     """Run an experiment with people: serve the pages of the stations and of the experimenter. Ctrl-C ends it.
 
@@ -100,9 +84,7 @@ def _token(given: str | None, file: Path | None) -> str | None:
 
 
 def texts(
-    write: Annotated[
-        Path | None, typer.Option("--write", help="Copy them to this file, to translate.", show_default=False)
-    ] = None,
+    write: Annotated[Path | None, "Copy them to this file, to translate."] = None,
 ) -> None:
     """Print or copy the texts of the page, to translate; 'holdfast teleop serve --texts FILE' uses the translation.
 

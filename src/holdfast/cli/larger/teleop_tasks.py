@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from holdfast.cli.options import JsonOption, read_arm, read_task
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import JsonOption
 from holdfast.cli.progress import working
+from holdfast.cli.values import read_task
 from holdfast.present.results import printed
 
 if TYPE_CHECKING:
@@ -20,7 +22,7 @@ def tasks(
     per_joint: Annotated[
         int, typer.Option("--per-joint", min=1, help="Tasks in which this joint fails, for each joint.")
     ] = 400,
-    distance: Annotated[float, typer.Option("--distance", help="Distance from start to target, m.")] = 2.0,
+    distance: Annotated[float, "Distance from start to target, m."] = 2.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same tasks.")] = 0,
     select: Annotated[
         int, typer.Option("--select", min=1, help="How many tasks to select, one from each cell as far as possible.")
@@ -32,12 +34,8 @@ def tasks(
             help="Also the most disorienting task, and one in which the failed arm is drawn to an erroneous stationary point.",
         ),
     ] = True,
-    task: Annotated[
-        str | None, typer.Option("--task", help="What the stick moves: planar or position.", show_default="by the arm")
-    ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.", show_default=False)
-    ] = None,
+    task: Annotated[str | None, "What the stick moves: planar or position.", "by the arm"] = None,
+    out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Draw random tasks, let the computer run each in four scenarios, and select those for an experiment.
@@ -46,7 +44,7 @@ def tasks(
     """
     from holdfast.teleop import choose_tasks, task_bank
 
-    model = read_arm(arm, None, None)
+    model = Chain().arm(arm)
     rows = _rows(model) if task is None else read_task(task, arm, model)
     with working("running the tasks") as say:
         bank = task_bank(model, per_joint, None, distance=distance, task=rows, seed=seed)

@@ -5,19 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    DegreesOption,
-    HoldOption,
-    JsonOption,
-    TipOption,
-    read_arm,
-    read_configuration,
-    read_joint,
-)
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption
+from holdfast.cli.values import read_configuration, read_joint
 from holdfast.errors import InputError
 from holdfast.present.printing import console, plain, print_json, print_written
 
@@ -37,21 +27,11 @@ def command(json_: JsonOption = False) -> None:
 
 def describe(
     arm: ArmArgument,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    view: Annotated[
-        Path | None, typer.Option("--view", help="Write a page with the arm in 3-D, its joints on sliders.", show_default=False)
-    ] = None,
-    q: Annotated[
-        str | None,
-        typer.Option("--q", help="With --view: joint values, rad and m. Default: nothing special.", show_default=False),
-    ] = None,
+    chain: Chain = Chain(),
+    view: Annotated[Path | None, "Write a page with the arm in 3-D, its joints on sliders."] = None,
+    q: Annotated[str | None, "With --view: joint values, rad and m. Default: nothing special."] = None,
     degrees: DegreesOption = False,
-    lock: Annotated[
-        list[str] | None,
-        typer.Option("--lock", help="With --view: a joint that is locked. May be given again.", show_default=False),
-    ] = None,
+    lock: Annotated[list[str] | None, "With --view: a joint that is locked. May be given again."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Show an arm, problems in its data, and which joints are single points of failure by structure.
@@ -60,7 +40,7 @@ def describe(
     """
     from holdfast.present.arm.console import show, to_dict
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     written = None
     if view is not None:
         start = None if q is None else read_configuration(model, q, degrees)

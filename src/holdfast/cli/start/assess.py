@@ -8,24 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli import clearance as apart
+from holdfast.cli.clearance import Apart
+from holdfast.cli.groups import Chains
 from holdfast.cli.measure_options import IndexOption
-from holdfast.cli.options import (
-    TASK_HELP,
-    BasesOption,
-    FailuresOption,
-    HoldsOption,
-    JsonOption,
-    LengthOption,
-    NamesOption,
-    TipsOption,
-    each_arm,
-    read_by_joint,
-    read_failures,
-    read_task,
-)
+from holdfast.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.candidates import TOOL_HELP, read_candidates
+from holdfast.cli.values import read_by_joint, read_failures, read_task
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.present.printing import console
@@ -37,67 +26,33 @@ if TYPE_CHECKING:
     from holdfast.result import Result
 
 FailureRateOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--failure-rate",
-        help="joint=how often it fails, to weigh what is left after a failure; may be given again.",
-        show_default=False,
-    ),
+    list[str] | None, "joint=how often it fails, to weigh what is left after a failure; may be given again."
 ]
 
 
 def command(
     arm: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.", show_default=False
-        ),
+        list[str], typer.Argument(metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.")
     ],
-    region: Annotated[
-        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
-    ] = None,
+    region: Annotated[Path | None, "Region file (YAML). Default: around the arm's home."] = None,
     index: IndexOption = "relative-manipulability",
-    task: Annotated[
-        list[str] | None, typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False)
-    ] = None,
-    tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP, show_default=False)] = None,
+    task: Annotated[list[str] | None, f"{TASK_HELP} May be given again, to compare."] = None,
+    tool: Annotated[list[str] | None, TOOL_HELP] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    poses: Annotated[
-        int | None,
-        typer.Option("--poses", help="Number of poses. Default: 2000, or each pose of a list once.", show_default=False),
-    ] = None,
-    seed: Annotated[int, typer.Option("--seed", help="Seed of all random draws.")] = 0,
-    sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
-    restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
-    optimise: Annotated[bool, typer.Option("--optimise", help="Also find the best configuration of each pose.")] = False,
-    after_lock: Annotated[
-        bool, typer.Option("--after-lock", help="Also find which poses can still be reached once each joint has locked.")
-    ] = False,
-    lock: Annotated[
-        list[str] | None,
-        typer.Option("--lock", help="JOINT=VALUE, rad or m, at which it locks; may be given again.", show_default=False),
-    ] = None,
+    poses: Annotated[int | None, "Number of poses. Default: 2000, or each pose of a list once."] = None,
+    seed: Annotated[int, "Seed of all random draws."] = 0,
+    sampling: Annotated[str, "random or sobol."] = "random",
+    restarts: Annotated[int, "Random starts per pose before it counts as not found."] = 100,
+    optimise: Annotated[bool, "Also find the best configuration of each pose."] = False,
+    after_lock: Annotated[bool, "Also find which poses can still be reached once each joint has locked."] = False,
+    lock: Annotated[list[str] | None, "JOINT=VALUE, rad or m, at which it locks; may be given again."] = None,
     failure_rate: FailureRateOption = None,
-    clearance: apart.ClearanceOption = None,
-    capsules: apart.CapsulesOption = None,
-    radius: apart.RadiusOption = None,
-    meshes: apart.MeshesOption = None,
-    margin: apart.MarginOption = None,
-    cell: apart.CellOption = None,
-    at_least: Annotated[
-        list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
-    ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for results and report; a stopped run resumes.", show_default=False)
-    ] = None,
-    threads: Annotated[
-        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
-    ] = None,
-    base: BasesOption = None,
-    tip: TipsOption = None,
-    hold: HoldsOption = None,
-    name: NamesOption = None,
+    apart: Apart = Apart(),
+    at_least: Annotated[list[float] | None, "Threshold; may be given again."] = None,
+    out: Annotated[Path | None, "Folder for results and report; a stopped run resumes."] = None,
+    threads: Annotated[int | None, "Threads. Default: all processors."] = None,
+    chains: Chains = Chains(),
     json_: JsonOption = False,
 ) -> None:
     """With what probability does an arm keep its dexterity over a region of the workspace when any one joint locks?
@@ -117,10 +72,10 @@ def command(
     from holdfast.kernels.threads import set_threads
 
     threshold = _first(at_least)
-    apart.check_clearance(clearance, capsules, radius, margin, cell)
+    apart.check()
     if threads is not None:
         set_threads(threads)
-    candidates = read_candidates(each_arm(arm, base, tip, hold, name), tool or [], task or [])
+    candidates = read_candidates(chains.arms(arm), tool or [], task or [])
     several = len(candidates) > 1
     first = candidates[0]
     chosen = read_region(region, first.spec, first.arm)
@@ -129,7 +84,7 @@ def command(
             "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
             "leave it out: a comparison counts every joint alike"
         )
-    if capsules is not None and len(arm) > 1:
+    if apart.capsules is not None and len(arm) > 1:
         raise InputError(
             f"--capsules is the shape of one arm and there are {len(arm)}; assess each alone with its own, or give --radius"
         )
@@ -147,11 +102,8 @@ def command(
             "optimise": optimise,
             "after_lock": after_lock,
             "locked": read_by_joint(c.arm, lock, "--lock"),
-            "clearance": apart.read_clearance(
-                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell, meshes=meshes
-            )
-            or False,
-            "margin": margin or 0.0,
+            "clearance": apart.read(c.arm, chooses=optimise or apart.cell is not None) or False,
+            "margin": apart.margin or 0.0,
         }
         if several:  # what cannot run is said before the first candidate takes its time
             make_plan(c.arm, chosen, measure, **options)
@@ -181,11 +133,9 @@ def command(
 
 
 def report(
-    folder: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)
-    ],
-    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
-    at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.")] = None,
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.")],
+    to: Annotated[Path | None, "HTML file. Default: DIR/report.html."] = None,
+    at_least: Annotated[list[float] | None, "Threshold; may be given again."] = None,
     failure_rate: FailureRateOption = None,
     json_: JsonOption = False,
 ) -> None:

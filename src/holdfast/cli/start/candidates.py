@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.cli.options import default_task, read_numbers
+from holdfast.cli.values import default_task, read_numbers
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:

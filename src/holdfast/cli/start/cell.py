@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import NOT_MET, BaseOption, HoldOption, JsonOption, OutOption, TipOption, read_arm
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import NOT_MET, JsonOption, OutOption
 from holdfast.present.results import drawn, printed
 
 command = typer.Typer(
@@ -20,13 +21,9 @@ command = typer.Typer(
 
 @command.command()
 def check(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.", show_default=False)],
-    arm: Annotated[
-        str | None, typer.Option("--arm", help="Built-in name or arm file: what it touches.", show_default=False)
-    ] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.")],
+    arm: Annotated[str | None, "Built-in name or arm file: what it touches."] = None,
+    chain: Chain = Chain(),
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -36,7 +33,7 @@ def check(
 
     Example: holdfast cell check bench.yaml --arm panda
     """
-    found = hf.check_cell(file, None if arm is None else read_arm(arm, base, tip, hold))
+    found = hf.check_cell(file, None if arm is None else chain.arm(arm))
     printed(found, json_, drawn(found, None, out))
     if not found.ok:
         raise typer.Exit(NOT_MET)

@@ -8,22 +8,9 @@ import numpy as np
 import typer
 
 from holdfast.cli.clearance import CellOption, MeshesOption
-from holdfast.cli.options import (
-    TARGET_HELP,
-    ArmArgument,
-    BaseOption,
-    DegreesOption,
-    HoldOption,
-    TaskOption,
-    TipOption,
-    default_task,
-    read_arm,
-    read_configuration,
-    read_joint,
-    read_numbers,
-    read_target,
-    read_task,
-)
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
+from holdfast.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 from holdfast.errors import InputError
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
 
@@ -36,67 +23,32 @@ PORT = 8123
 
 def command(
     arm: ArmArgument,
-    port: Annotated[int, typer.Option("--port", help="Port of the page; 0 takes any free one.")] = PORT,
-    host: Annotated[
-        str, typer.Option("--host", help="Address to listen on. Let other machines in only among people you trust.")
-    ] = "127.0.0.1",
-    q: Annotated[
-        str | None,
-        typer.Option("--q", help="Joint values, rad and m. Default: near home, in no special place.", show_default=False),
-    ] = None,
+    port: Annotated[int, "Port of the page; 0 takes any free one."] = PORT,
+    host: Annotated[str, "Address to listen on. Let other machines in only among people you trust."] = "127.0.0.1",
+    q: Annotated[str | None, "Joint values, rad and m. Default: near home, in no special place."] = None,
     degrees: DegreesOption = False,
     task: TaskOption = None,
-    lock: Annotated[
-        list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.", show_default=False)
-    ] = None,
-    free: Annotated[
-        list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.", show_default=False)
-    ] = None,
-    index: Annotated[str, typer.Option("--index", help="Index shown by the bars.")] = "relative-manipulability",
-    susceptibility: Annotated[
-        str, typer.Option("--susceptibility", help=f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}.")
-    ] = ("torque"),
-    objective: Annotated[
-        str, typer.Option("--objective", help="Index or susceptibility by which best and worst are found.")
-    ] = "relative-manipulability",
+    lock: Annotated[list[str] | None, "A joint that is locked. May be given again."] = None,
+    free: Annotated[list[str] | None, "A joint that swings freely. May be given again."] = None,
+    index: Annotated[str, "Index shown by the bars."] = "relative-manipulability",
+    susceptibility: Annotated[str, f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}."] = ("torque"),
+    objective: Annotated[str, "Index or susceptibility by which best and worst are found."] = "relative-manipulability",
     law: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--law",
-            help=f"Two laws side by side: {LAWS.usage}. Give it twice.",
-            show_default="pseudoinverse and failure-tolerant",
-        ),
+        list[str] | None, f"Two laws side by side: {LAWS.usage}. Give it twice.", "pseudoinverse and failure-tolerant"
     ] = None,
-    target: Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)] = None,
-    file: Annotated[
-        str | None,
-        typer.Option("--file", help="A motion that follow, simulate or recover wrote: CSV or folder.", show_default=False),
-    ] = None,
-    region: Annotated[
-        str | None, typer.Option("--region", help="A results folder that assess wrote.", show_default=False)
-    ] = None,
+    target: Annotated[str | None, TARGET_HELP] = None,
+    file: Annotated[str | None, "A motion that follow, simulate or recover wrote: CSV or folder."] = None,
+    region: Annotated[str | None, "A results folder that assess wrote."] = None,
     cell: CellOption = None,
     meshes: MeshesOption = None,
     move: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--move",
-            help="An object of the cell elsewhere: name=x,y,z[,qx,qy,qz,qw], m. May be given again.",
-            show_default=False,
-        ),
+        list[str] | None, "An object of the cell elsewhere: name=x,y,z[,qx,qy,qz,qw], m. May be given again."
     ] = None,
-    time: Annotated[float, typer.Option("--time", help="Time at which the motion is shown, s.")] = 0.0,
+    time: Annotated[float, "Time at which the motion is shown, s."] = 0.0,
     show: Annotated[
-        str | None,
-        typer.Option(
-            "--show",
-            help="View to open: arm, best-worst, laws, swing, region or file.",
-            show_default="file or region if given, else arm",
-        ),
+        str | None, "View to open: arm, best-worst, laws, swing, region or file.", "file or region if given, else arm"
     ] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
 ) -> None:
     """Move an arm in the browser, let joints fail, and see what the failure costs (needs the extra 'view').
 
@@ -115,7 +67,7 @@ def command(
     from holdfast.studio.server import serve
     from holdfast.studio.state import SHOWS, State
 
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     model = model if meshes is None else with_meshes(model, meshes)
     text = default_task(arm, model) if task is None else task
     rows = as_task(model, read_task(text, arm, model))
@@ -144,8 +96,8 @@ def command(
         names=model.joint_names,
         q=tuple(float(x) for x in start),
         task=text,
-        base=base,
-        tip=tip,
+        base=chain.base,
+        tip=chain.tip,
         hold=() if model.chain is None else model.chain.held,
         conditions=_conditions(model, lock or [], free or []),
         index=index,

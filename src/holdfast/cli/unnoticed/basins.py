@@ -4,57 +4,32 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 import holdfast as hf
+from holdfast.cli.groups import Chain, Output
 from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    FailureOption,
-    HoldOption,
-    JsonOption,
-    OutOption,
-    PlotOption,
-    SeedOption,
-    TaskOption,
-    TipOption,
-    read_locks,
-    read_target,
-)
-from holdfast.present.results import drawn, printed
+from holdfast.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption
+from holdfast.cli.values import read_locks, read_target
 
 
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    lock: Annotated[
-        list[str] | None, typer.Option("--lock", help="JOINT=VALUE, rad or m; may be given again.", show_default=False)
-    ] = None,
+    lock: Annotated[list[str] | None, "JOINT=VALUE, rad or m; may be given again."] = None,
     failure: FailureOption = None,
-    starts: Annotated[int, typer.Option("--starts", help="How many random starts.")] = 2000,
-    grid: Annotated[
-        int | None,
-        typer.Option(
-            "--grid", help="With two healthy joints, instead: a map of so many by so many starts.", show_default=False
-        ),
-    ] = None,
+    starts: Annotated[int, "How many random starts."] = 2000,
+    grid: Annotated[int | None, "With two healthy joints, instead: a map of so many by so many starts."] = None,
     degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    chain: Chain = Chain(),
+    output: Output = Output(),
 ) -> None:
     """Find the starts from which an arm with locked joints still reaches its target, and where it ends from the others.
 
     Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """
-    made = law_of(law, arm, task, base, tip, hold)
+    made = law_of(law, arm, task, chain)
     locked = read_locks(made.arm, lock, degrees, failure=failure)
     result = hf.basins(made, read_target(made.arm, made.task, target), locked, starts=starts, grid=grid, seed=seed)
-    printed(result, json_, drawn(result, plot, out))
+    output.printed(result)

@@ -5,32 +5,25 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import Touched
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawsOption, TargetsOption, read_laws, read_places, read_targets
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_arm
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed import measures
+from holdfast.cli.unnoticed.measures import Mapped, MapTimeOption
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: measures.FolderOption = None,
-    starts: measures.MapStartsOption = "1000",
-    configurations: measures.MapConfigurationsOption = 20,
-    over: measures.OverOption = "starts",
+    mapped: Mapped = Mapped(),
     law: LawsOption = None,
     task: TaskOption = None,
-    time_limit: measures.MapTimeOption = None,
-    cell: TouchedCellOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
+    time_limit: MapTimeOption = None,
+    touched: Touched = Touched(),
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Find the control law with which an arm reaches its targets most often after an unnoticed lock of any joint.
@@ -39,10 +32,10 @@ def command(
 
     Example: holdfast best-law panda --task position --target 0.5,0.2,0.4 --law pseudoinverse --law failure-tolerant:0.2
     """
-    laws = read_laws(law, read_arm(arm, base, tip, hold), task, arm)
-    targets, places = read_targets(laws[0], target), read_places(starts)
-    touched = read_contact_shape(laws[0].arm, capsules, radius, cell, meshes)
-    options: dict[str, Any] = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
+    laws = read_laws(law, chain.arm(arm), task, arm)
+    targets, places = read_targets(laws[0], target), read_places(mapped.starts)
+    shape = touched.read(laws[0].arm)
+    how: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "time_limit": time_limit}
     with progress_bar(json_, "runs") as progress:
-        result = hf.best_law(laws, targets, places, progress=progress, clearance=touched, **options)
-    printed(result, json_, [] if out is None else result.save(out, command=said()))
+        result = hf.best_law(laws, targets, places, progress=progress, clearance=shape, seed=seed, **how)
+    printed(result, json_, [] if mapped.out is None else result.save(mapped.out, command=said()))

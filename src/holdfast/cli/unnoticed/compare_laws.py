@@ -8,22 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import Touched
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    HoldOption,
-    JsonOption,
-    StartDegreesOption,
-    TaskOption,
-    TipOption,
-    read_arm,
-    read_configuration,
-    read_failures,
-    read_numbers,
-    read_target,
-)
+from holdfast.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
+from holdfast.cli.values import read_configuration, read_failures, read_numbers, read_target
 from holdfast.errors import InputError
 from holdfast.present.results import printed, said
 
@@ -43,47 +32,24 @@ def command(
         typer.Option("--motions", "--tasks", help="How many random motions from point to point.", show_default=str(MOTIONS)),
     ] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
-    distance: Annotated[
-        str | None,
-        typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False),
-    ] = None,
+    distance: Annotated[str | None, "Of random motions, m: least,greatest, for example 0.2,0.8."] = None,
     reachable_after: Annotated[
-        str | None,
-        typer.Option(
-            "--reachable-after",
-            help="Random motions whose target is still within reach after these failures, as --failures takes them.",
-            show_default=False,
-        ),
+        str | None, "Random motions whose target is still within reach after these failures, as --failures takes them."
     ] = None,
-    start: Annotated[
-        str | None,
-        typer.Option("--start", help="Instead: one motion from these joint values, rad and m, ...", show_default=False),
-    ] = None,
-    target: Annotated[
-        str | None, typer.Option("--target", help="... to this target, given as in 'holdfast simulate'.", show_default=False)
-    ] = None,
+    start: Annotated[str | None, "Instead: one motion from these joint values, rad and m, ..."] = None,
+    target: Annotated[str | None, "... to this target, given as in 'holdfast simulate'."] = None,
     failures: Annotated[
-        str,
-        typer.Option(
-            "--failures", help="Joints that lock from the start, each alone: single (all of them), 'joint2; joint3', or none."
-        ),
+        str, "Joints that lock from the start, each alone: single (all of them), 'joint2; joint3', or none."
     ] = "single",
     task: TaskOption = None,
     gain: GainOption = 1.0,
     speed_limit: SpeedLimitOption = None,
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
-    cell: TouchedCellOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
+    touched: Touched = Touched(),
     degrees: StartDegreesOption = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report.html and tables (CSV).", show_default=False)
-    ] = None,
+    chain: Chain = Chain(),
+    out: Annotated[Path | None, "Folder for report.html and tables (CSV)."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Compare control laws of one arm on the same motions with a joint locked and a controller that does not know it.
@@ -93,7 +59,7 @@ def command(
 
     Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
     """
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     laws = read_laws(law, model, task, arm, gain=gain, speed_limit=speed_limit)
     if start is None and target is None:
         drawn = _drawn(model, laws[0].task, MOTIONS if motions is None else motions, seed, distance, reachable_after)
@@ -106,8 +72,8 @@ def command(
         q0, goal = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
         about = f"one motion of '{model.name}'"
     chosen = None if failures == "none" else read_failures(model, failures)
-    touched = read_contact_shape(model, capsules, radius, cell, meshes)
-    alike: dict[str, Any] = {"cycles": cycles, "time_limit": time_limit, "seed": seed, "about": about, "clearance": touched}
+    shape = touched.read(model)
+    alike: dict[str, Any] = {"cycles": cycles, "time_limit": time_limit, "seed": seed, "about": about, "clearance": shape}
     result = hf.compare_laws(laws, q0, goal, failures=chosen, **alike)
     printed(result, json_, [] if out is None else result.save(out, command=said()))
 

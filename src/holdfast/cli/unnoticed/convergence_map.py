@@ -5,32 +5,25 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import Touched
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed import measures
+from holdfast.cli.unnoticed.measures import Mapped, MapTimeOption
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: measures.FolderOption = None,
-    starts: measures.MapStartsOption = "1000",
-    configurations: measures.MapConfigurationsOption = 20,
-    over: measures.OverOption = "starts",
+    mapped: Mapped = Mapped(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    time_limit: measures.MapTimeOption = None,
-    cell: TouchedCellOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
+    time_limit: MapTimeOption = None,
+    touched: Touched = Touched(),
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Map how motions end with each joint locked in turn from the start, and with none.
@@ -39,10 +32,10 @@ def command(
 
     Example: holdfast convergence-map planar-3r --target grid:12 --over targets --out results
     """
-    made = law_of(law, arm, task, base, tip, hold)
-    targets, places = read_targets(made, target), read_places(starts)
-    touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
+    made = law_of(law, arm, task, chain)
+    targets, places = read_targets(made, target), read_places(mapped.starts)
+    shape = touched.read(made.arm)
     with progress_bar(json_, "runs") as progress:
-        drawn: dict[str, Any] = {"configurations": configurations, "over": over, "seed": seed}
-        result = hf.convergence_map(made, targets, places, time_limit=time_limit, clearance=touched, progress=progress, **drawn)
-    printed(result, json_, [] if out is None else result.save(out, command=said()))
+        drawn: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": seed}
+        result = hf.convergence_map(made, targets, places, time_limit=time_limit, clearance=shape, progress=progress, **drawn)
+    printed(result, json_, [] if mapped.out is None else result.save(mapped.out, command=said()))

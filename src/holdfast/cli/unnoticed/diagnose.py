@@ -8,26 +8,20 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import NOT_MET, BaseOption, HoldOption, JsonOption, OutOption, PlotOption, TipOption, read_arm
-from holdfast.present.results import drawn, printed
+from holdfast.cli.groups import Chain, Output
+from holdfast.cli.options import NOT_MET
 
-ArmOption = Annotated[
-    str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
-]
-LatencyOption = Annotated[float, typer.Option("--latency", help="By which the tool's pose is recorded late, s.")]
+ArmOption = Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."]
+LatencyOption = Annotated[float, "By which the tool's pose is recorded late, s."]
 
 
 def command(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).", show_default=False)],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).")],
     arm: ArmOption,
-    bounds: Annotated[Path, typer.Option("--bounds", help="File that calibrate wrote.", show_default=False)],
+    bounds: Annotated[Path, "File that calibrate wrote."],
     latency: LatencyOption = 0.0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    chain: Chain = Chain(),
+    output: Output = Output(),
 ) -> None:
     """Look for a joint fault in a record of an arm: when it alarms, which joint, which kind, and what could not be told.
 
@@ -35,8 +29,8 @@ def command(
 
     Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
     """
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     found = hf.diagnosis.diagnose(model, hf.faults.Log.load(log, latency=latency), hf.diagnosis.load(bounds))
-    printed(found, json_, drawn(found, plot, out))
+    output.printed(found)
     if found.verdict.alarm:
         raise typer.Exit(NOT_MET)

@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import BaseOption, HoldOption, JsonOption, TipOption, read_arm
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import JsonOption
 from holdfast.present.results import printed
 
 command = typer.Typer(name="faults", help="Timed joint faults for simulators.", no_args_is_help=True)
@@ -21,18 +22,12 @@ def _group() -> None:
 
 @command.command()
 def draw(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Faults file (YAML).", show_default=False)],
-    arm: Annotated[
-        str, typer.Option("--arm", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
-    ],
-    episodes: Annotated[int, typer.Option("--episodes", help="So many, from number 0 on.")] = 1,
-    horizon: Annotated[
-        float | None, typer.Option("--horizon", help="Length of an episode, s. Default: endless.", show_default=False)
-    ] = None,
-    seed: Annotated[int | None, typer.Option("--seed", help="In place of the file's.", show_default=False)] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Faults file (YAML).")],
+    arm: Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."],
+    episodes: Annotated[int, "So many, from number 0 on."] = 1,
+    horizon: Annotated[float | None, "Length of an episode, s. Default: endless."] = None,
+    seed: Annotated[int | None, "In place of the file's."] = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Draw what happens in some episodes: the same events from the same seed on every machine.
@@ -40,5 +35,5 @@ def draw(
     Example: holdfast faults draw faults.yaml --arm panda --episodes 5 --seed 7
     """
     faults = hf.faults.load(file).seeded(seed)
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     printed(faults.batch(model, episodes=episodes, horizon=horizon or float("inf")), json_)

@@ -8,24 +8,21 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, SeedOption, TipOption, read_arm
+from holdfast.cli.groups import Chain
+from holdfast.cli.options import ArmArgument, SeedOption
 from holdfast.files.output import made
 from holdfast.present.printing import console, print_written
 
 
 def command(
     arm: ArmArgument,
-    out: Annotated[Path, typer.Option("--out", help="Folder of the records.", show_default=False)],
+    out: Annotated[Path, "Folder of the records."],
     records: Annotated[int, typer.Option("--records", min=1, help="So many, each with a motion of its own.")] = 1,
-    duration: Annotated[float, typer.Option("--duration", help="Of each, s.")] = 6.0,
-    faults: Annotated[
-        Path | None, typer.Option("--faults", help="Faults file (YAML); record k is episode k.", show_default=False)
-    ] = None,
-    body: Annotated[int, typer.Option("--body", help="Which robot: records of one have one.")] = 0,
+    duration: Annotated[float, "Of each, s."] = 6.0,
+    faults: Annotated[Path | None, "Faults file (YAML); record k is episode k."] = None,
+    body: Annotated[int, "Which robot: records of one have one."] = 0,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
 ) -> None:
     """Simulate records of an arm with servos and noise, healthy or with faults, to try calibrate and diagnose on.
 
@@ -33,7 +30,7 @@ def command(
 
     Example: holdfast rehearse panda --records 2 --out healthy
     """
-    model = read_arm(arm, base, tip, hold)
+    model = chain.arm(arm)
     model_of = None if faults is None else hf.faults.load(faults)
     events = None if model_of is None else [model_of.draw(model, episode=k, horizon=duration) for k in range(records)]
     seeds, folder = range(seed, seed + records), made(out)

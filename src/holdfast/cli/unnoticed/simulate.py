@@ -5,27 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, MeshesOption, RadiusOption, TouchedCellOption, read_contact_shape
+from holdfast.cli.clearance import Touched
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    FailureOption,
-    HoldOption,
-    JsonOption,
-    MotionCsvOption,
-    StartDegreesOption,
-    TaskOption,
-    TipOption,
-    read_configuration,
-    read_joint,
-    read_locks,
-    read_numbers,
-    read_target,
-)
+from holdfast.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption, TaskOption
+from holdfast.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 
@@ -36,17 +21,10 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    start: Annotated[
-        str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
-    ],
+    start: Annotated[str, "Joint values at the start, rad and m, by commas or spaces."],
     target: TargetOption,
     lock: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--lock",
-            help="JOINT or JOINT@TIME: it locks at the start, or then (s or cycles). May be given again.",
-            show_default=False,
-        ),
+        list[str] | None, "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles). May be given again."
     ] = None,
     failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
@@ -55,56 +33,34 @@ def command(
     speed_limit: SpeedLimitOption = None,
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
-    physics: Annotated[
-        bool,
-        typer.Option("--physics", help="Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."),
-    ] = False,
-    servo_bandwidth: Annotated[
-        float, typer.Option("--servo-bandwidth", help="With --physics: bandwidth of the joint servos, Hz.")
-    ] = 10.0,
-    faults: Annotated[
-        Path | None,
-        typer.Option("--faults", help="Faults file (YAML): what fails when is drawn from it.", show_default=False),
-    ] = None,
-    episode: Annotated[int, typer.Option("--episode", help="With --faults: which episode is drawn, from 0.")] = 0,
+    physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
+    servo_bandwidth: Annotated[float, "With --physics: bandwidth of the joint servos, Hz."] = 10.0,
+    faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
+    episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
     notice: Annotated[
         Path | None,
-        typer.Option(
-            "--notice",
-            help="With --physics --faults: bounds that calibrate wrote; a monitor names the joint, and the controller reacts.",
-            show_default=False,
-        ),
+        "With --physics --faults: bounds that calibrate wrote; a monitor names the joint, and the controller reacts.",
     ] = None,
-    cell: TouchedCellOption = None,
-    capsules: CapsulesOption = None,
-    radius: RadiusOption = None,
-    meshes: MeshesOption = None,
-    stop_at_contact: Annotated[
-        bool, typer.Option("--stop-at-contact", help="With --cell: the run ends where the arm first touches an object.")
-    ] = False,
+    touched: Touched = Touched(),
+    stop_at_contact: Annotated[bool, "With --cell: the run ends where the arm first touches an object."] = False,
     degrees: StartDegreesOption = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     csv: MotionCsvOption = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for report.html with the arm moving, run.png and run.csv.", show_default=False),
-    ] = None,
+    plot: Annotated[Path | None, "Draw the motion into this PNG file."] = None,
+    out: Annotated[Path | None, "Folder for report.html with the arm moving, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Simulate an arm whose controller does not know that joints have locked: does it still reach the target?
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
-    made = law_of(law, arm, task, base, tip, hold, gain=gain, speed_limit=speed_limit)
+    made = law_of(law, arm, task, chain, gain=gain, speed_limit=speed_limit)
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
     drawn_faults = None if faults is None else hf.faults.load(faults)
     if drawn_faults is not None and physics:
-        _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--cell": cell})
+        _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--cell": touched.cell})
         watch = None if notice is None else hf.diagnosis.Monitor(made.arm, hf.diagnosis.load(notice))
         found = hf.simulate_faults(
             made,
@@ -123,11 +79,11 @@ def command(
     if drawn_faults is not None:
         _refuse({"--lock": lock, "--failure": failure})
     happens = None if drawn_faults is None else drawn_faults.draw(made.arm, episode=episode)
-    touched = read_contact_shape(made.arm, capsules, radius, cell, meshes)
-    if stop_at_contact and touched is None:
+    shape = touched.read(made.arm)
+    if stop_at_contact and shape is None:
         raise InputError("--stop-at-contact has nothing to stop at; add --cell")
     locked = read_locks(made.arm, lock, degrees, failure=failure) if failure else joints
-    alike: dict[str, Any] = {"locked": locked, "time_limit": time_limit, "time": times or 0.0, "clearance": touched}
+    alike: dict[str, Any] = {"locked": locked, "time_limit": time_limit, "time": times or 0.0, "clearance": shape}
     runs = hf.simulate(made, q0, goal, cycles=cycles, faults=happens, stop_at_contact=stop_at_contact, **alike)
     result: Result = runs
     if physics:

@@ -4,26 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 import holdfast as hf
+from holdfast.cli.groups import Chain, Output
 from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    FailureOption,
-    HoldOption,
-    JsonOption,
-    OutOption,
-    PlotOption,
-    SeedOption,
-    TaskOption,
-    TipOption,
-    read_locks,
-    read_target,
-)
+from holdfast.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption
+from holdfast.cli.values import read_locks, read_target
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed
 
 if TYPE_CHECKING:
     from holdfast.result import Result
@@ -33,33 +19,24 @@ def command(
     arm: ArmArgument,
     target: TargetOption,
     lock: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--lock",
-            help="JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values.",
-            show_default=False,
-        ),
+        list[str] | None, "JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values."
     ] = None,
     failure: FailureOption = None,
     degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    plot: PlotOption = None,
-    out: OutOption = None,
-    json_: JsonOption = False,
+    chain: Chain = Chain(),
+    output: Output = Output(),
 ) -> None:
     """Find the stationary points at which an arm with locked joints can stop when its controller does not know.
 
     Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=140 --degrees
     """
-    made = law_of(law, arm, task, base, tip, hold)
+    made = law_of(law, arm, task, chain)
     goal = read_target(made.arm, made.task, target)
     locked = read_locks(made.arm, lock, degrees, alone=True, failure=failure)
-    if plot is not None and all("=" in text for text in lock or []):
+    if output.plot is not None and all("=" in text for text in lock or []):
         raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
     result: Result = hf.stationary_points(made, goal, locked, seed=seed)
-    printed(result, json_, drawn(result, plot, out))
+    output.printed(result)

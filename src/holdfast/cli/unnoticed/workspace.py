@@ -2,32 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import holdfast as hf
+from holdfast.cli.groups import Chain
 from holdfast.cli.laws import LawOption, TargetOption, law_of, read_places
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_target
+from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed import measures
+from holdfast.cli.unnoticed.measures import Measured, MeasureTimeOption
+from holdfast.cli.values import read_target
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    out: measures.FolderOption = None,
-    starts: measures.StartsOption = None,
-    configurations: measures.ConfigurationsOption = None,
-    points: measures.PointsOption = None,
-    method: measures.MethodOption = None,
-    relative_to: measures.RelativeOption = "inside",
+    measured: Measured = Measured(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    time_limit: measures.MeasureTimeOption = None,
+    time_limit: MeasureTimeOption = None,
     seed: SeedOption = 0,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Map the starts from which an arm still reaches a target when a joint locks on the way and nobody notices.
@@ -39,16 +32,10 @@ def command(
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
-    made = law_of(law, arm, task, base, tip, hold)
-    goal, places = read_target(made.arm, made.task, target), None if starts is None else read_places(starts)
-    store = None if out is None else out / "run"
-    options: dict[str, Any] = {
-        "points": points,
-        "time_limit": time_limit,
-        "relative_to": relative_to,
-        "seed": seed,
-        "store": store,
-    }
+    made = law_of(law, arm, task, chain)
+    goal, places = read_target(made.arm, made.task, target), None if measured.starts is None else read_places(measured.starts)
+    store = None if measured.out is None else measured.out / "run"
+    options = {"time_limit": time_limit, "seed": seed, "store": store, **measured.options()}
     with progress_bar(json_, "starts") as progress:
-        result = hf.workspace(made, goal, places, configurations=configurations, method=method, progress=progress, **options)
-    printed(result, json_, [] if out is None else result.save(out, command=said()))
+        result = hf.workspace(made, goal, places, progress=progress, **options)
+    printed(result, json_, [] if measured.out is None else result.save(measured.out, command=said()))

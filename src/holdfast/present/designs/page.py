@@ -19,7 +19,7 @@ from holdfast.designs.space import DesignSpace
 from holdfast.failures import failure_sets
 from holdfast.files.output import put
 from holdfast.notice import says
-from holdfast.present.commands import failures_option, region_file, region_files, task_option
+from holdfast.present.commands import failures_option, on_lines, region_file, region_files, task_option
 from holdfast.present.designs.console import at_bound
 from holdfast.present.designs.figures import arms_figure, front_figure
 from holdfast.present.story import how
@@ -318,14 +318,7 @@ def command(d: Designs) -> tuple[str, str]:
         words.append(f"--failures {shlex.quote(failures_option(space.arm, d.index.failures))}")
     words += [f"--level {as_given(d.level)}", f"--poses {d.poses}", f"--designs {d.screened}", f"--climbs {d.climbs}"]
     words += [f"--fresh {d.checked.best.distribution.samples}", f"--seed {d.seed}"]
-    lines = [f"holdfast design {shlex.quote(spec)}"]
-    for word in words:
-        if len(lines[-1]) + len(word) > 90:
-            lines[-1] += " \\"
-            lines.append("    " + word)
-        else:
-            lines[-1] += " " + word
-    return "\n".join(lines), remark
+    return on_lines(f"holdfast design {shlex.quote(spec)}", words), remark
 
 
 def _method(d: Designs) -> list[Block]:
