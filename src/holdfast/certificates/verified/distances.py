@@ -51,7 +51,7 @@ class Distances(Boxes):
             best = np.maximum(best, np.nextafter(times("na,na->n", e, error).low - loss * UP, -np.inf))
         return best
 
-    def farthest(self, v: Balls, moved: Moved, lengths: Array, half: Array, wide: Array) -> Array:
+    def farthest(self, v: Balls, moved: Moved, carried: tuple[Array, ...], half: Array, wide: Array) -> Array:
         """Above the length of v, of a point from what is within ``wide`` (N, 3) of a place, from half its square.
 
         The third derivative of that is at most 3 |t'| |t''| + |t| times the point's.
@@ -65,17 +65,26 @@ class Distances(Boxes):
         inner = second[:, :joints, :joints] + bend
         second.at[:, :joints, :joints], second.off[:, :joints, :joints] = inner.at, inner.off
         width, d = np.concatenate([half, wide], axis=1), length(v.size)
-        c = np.cumsum(half, axis=1)
-        one, two, three = ((c**power * lengths).sum(axis=1) for power in (1, 2, 3))
-        one += length(wide)
+        one, two, three = carried
+        one = one + length(wide)
         total = bent(times("na,nak->nk", v, whole).size, -second, width) + (3 * one * two + (d + one) * three) / 6
         return np.asarray(np.nextafter(np.sqrt((d**2 + 2 * total) * UP), np.inf))
 
-    def span(self, moved: Moved, away: Balls, lengths: Array, half: Array, wide: Array) -> tuple[Array, Array]:
-        """Below and above the distance of a point of a link, ``away`` (N, 3) from what is within ``wide`` of a place."""
-        third = (np.cumsum(half, axis=1) ** 3 * lengths).sum(axis=1) / 6
-        near = self.nearest((away, *point_derivatives(moved.spin, moved.columns)), (third, np.zeros(len(third))), half, wide)
-        return near, self.farthest(away, moved, lengths, half, wide)
+    def span(
+        self, moved: Moved, away: Balls, lengths: Array, half: Array, wide: Array, at: tuple[int, list[Array]]
+    ) -> tuple[Array, Array]:
+        """Below and above the distance of a point of a link, ``away`` (N, 3) from what is within ``wide`` of a place.
+
+        ``at``: the first joint, and the joints, whose values count where they slide.
+        """
+        slides = self.slides[at[0] : at[0] + len(at[1])]
+        c, slid = np.cumsum(half * ~slides, axis=1), half * slides
+        out = np.stack([joint[:, 0] for joint in at[1]], 1) if at[1] else half
+        most = lengths + np.abs(out) * slides + slid
+        carried = tuple((c**k * most + k * c ** (k - 1) * slid).sum(axis=1) for k in (1, 2, 3))  # above three derivatives
+        third = carried[2] / 6, np.zeros(len(half))
+        near = self.nearest((away, *point_derivatives(moved.spin, moved.columns)), third, half, wide)
+        return near, self.farthest(away, moved, carried, half, wide)
 
     def apart(self, joints: list[Array], first: int, start: Array, end: Array, count: int) -> tuple[Array, Array]:
         """Below and above the distance of a point of link ``first`` from one behind some joints, (N,)."""
@@ -85,11 +94,11 @@ class Distances(Boxes):
         aside, still = np.zeros(count), np.ones(count, dtype=bool)
         by = times("nkij,nkj->nki", crossed(moved.axes), point[:, None] + -moved.places).size
         for k in range(len(joints)):
-            cost = length(by[:, k]) * np.minimum(half[:, k], 2) * UP
+            cost = half[:, k] if self.slides[first + k] else length(by[:, k]) * np.minimum(half[:, k], 2) * UP
             still &= cost < 1e-6
             half[:, k], aside = np.where(still, 0.0, half[:, k]), (aside + np.where(still, cost, 0.0)) * UP
         lengths = self.lengths(first, first + len(joints), end)
-        near, far = self.span(moved, moved.tip + -point, lengths, half, np.zeros((count, 3)))
+        near, far = self.span(moved, moved.tip + -point, lengths, half, np.zeros((count, 3)), (first, joints))
         return np.nextafter(near - aside, -np.inf), np.nextafter(far + aside, np.inf)
 
 
@@ -105,7 +114,6 @@ class Apart(Distances):
         self.axes = len(target["axes"])
         flat = document["task"].startswith("planar")
         super().__init__(document["arm"], [*ends, *([real(x) for x in pair] for pair in target["box"])], flat)
-        need(not (lemmas and self.slides.any()), "lemmas are of joints that turn")
         self.points = [np.array([real(x) for x in lemma["point"]]) * [1, 1, not flat] for lemma in lemmas]
         self.links = [lemma["link"] for lemma in lemmas]
         self.least, self.most = ([real(lemma[key]) for lemma in lemmas] for key in ("least", "most"))
@@ -129,7 +137,7 @@ class Apart(Distances):
             return self.nearest(self.rows.error(moved, target), (third, angle**3 / 6), turns, wide) > 0
         flat = [np.zeros((len(parts), 5))] * (3 - linear)
         away = moved.tip + stacked([Balls(-x[:, 0], x[:, 1]) for x in (*target[:linear], *flat)], 1)
-        near, far = self.span(moved, away, lengths, own, np.pad(wide, ((0, 0), (0, 3 - linear))))
+        near, far = self.span(moved, away, lengths, own, np.pad(wide, ((0, 0), (0, 3 - linear))), (0, joints))
         return np.asarray((near > self.most[which]) | (far < self.least[which]))
 
     def keeps(self, which: int, parts: list[Cell]) -> NDArray[np.bool_]:
