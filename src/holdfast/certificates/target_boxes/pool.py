@@ -44,6 +44,7 @@ class Pool:
         cells: That the whole would take, estimated; infinite where nobody knows.
         seconds: That this would take here.
         halved: (A,) how often each axis is halved for them, in the mean.
+        drawn, lost: Targets that were drawn first, and those of them of which no configuration was found.
     """
 
     def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
@@ -54,6 +55,7 @@ class Pool:
         self._added: list[tuple[Array, Array]] = []
         self._best, self._tree = list[tuple[Array, Array]](), cast(Any, None)
         self._half = np.zeros(len(root))
+        self.drawn = self.lost = 0
         self.q, self._at = self._grown()
         self.cells, self.halved, self.seconds = self._estimate(self.q, self._at)
 
@@ -71,6 +73,8 @@ class Pool:
         q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
         q = reach.solved(q, at[:, : reach.axes], 40)
         met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
+        if not self.drawn:
+            self.drawn, self.lost = len(at) // _STARTS, int((~met.reshape(-1, _STARTS).any(axis=1)).sum())
         q, at = q[met], at[met]
         if not self._half.any():
             self._half = _WIDER / 2 * self._width * 0.5 ** self._estimate(q, at)[1]

@@ -52,7 +52,7 @@ from holdfast.present.results import printed
 
 command = typer.Typer(
     name="certify",
-    help="Prove that an arm reaches every target of a box, and write a certificate.",
+    help="Prove what an arm does for every target, configuration or lock of a box, and write a certificate.",
     no_args_is_help=True,
 )
 
@@ -309,6 +309,8 @@ def _box_of(
         half = read_numbers("--within", within, f"one number, or {arm.n},")
         if len(middle) != arm.n or len(half) not in (1, arm.n):
             raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+        if (half < 0).any():
+            raise InputError("--within must not be negative: it is half widths")
         pairs = zip(arm.joint_names, middle, [*half] * (arm.n // len(half)), strict=True)
         texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
         box = _intervals(arm, "--around", texts, degrees)
@@ -348,7 +350,9 @@ def _turned(rotation: str | None, size: str | None, degrees: bool, pointing: boo
 
     if rotation is None:
         if size is not None or pointing:
-            raise InputError("--rotation-size is the box around --rotation, --pointing about its z axis; give that, too")
+            raise InputError(
+                "--rotation-size is a box around --rotation, and --pointing about its z axis; give --rotation as well"
+            )
         return {}
     angles = read_numbers("--rotation", rotation, "roll, pitch and yaw")
     edges = read_numbers("--rotation-size", size or "0", "one number, or three,")
@@ -383,7 +387,7 @@ def _intervals(arm: hf.Arm, option: str, texts: list[str], degrees: bool) -> dic
     for text in texts:
         joint, _, span = text.rpartition("=")
         low, dots, high = span.partition("..")
-        if not dots:
+        if not (dots and low and high):
             raise InputError(
                 f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
             )
