@@ -9,7 +9,6 @@ from pathlib import Path
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.documents import need_arm
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.result import Result
@@ -76,6 +75,8 @@ def check_certificate(
         raise InputError("sample and workers must be 1 or more")
     try:
         if arm is not None:
+            from holdfast.certificates.documents import need_arm
+
             need_arm(verifier.load(Path(file)), arm)
         return _of(verifier.verify(file, sample=sample, workers=workers))
     except verifier.Refused as error:
