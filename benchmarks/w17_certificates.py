@@ -74,7 +74,7 @@ def poses(chosen: argparse.Namespace) -> str:
     ranges = dict(zip(arm.joint_names, np.deg2rad(NINE).tolist(), strict=True))
     turn = Rotation.from_euler("y", ROTATION, degrees=True).as_matrix()
     claim = hf.certificates.tolerant_claim(arm, POSES, 0.02 if chosen.quick else 0.05, rotation=turn, working_ranges=ranges)
-    found = hf.certify(claim, time_limit=120)
+    found = hf.certify(claim)
     with tempfile.TemporaryDirectory() as folder:
         check = hf.check_certificate(found.write(Path(folder) / "cube.certificate"))
     rows = [

@@ -173,6 +173,11 @@ def another(of: str) -> None:
         _outer.others[of](1)
 
 
+def aside(text: str) -> None:
+    """Something that who waits should know at once: a line of its own."""
+    _say(text)
+
+
 class _Work:
     """Work under way in the main thread."""
 

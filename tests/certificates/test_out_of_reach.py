@@ -135,7 +135,8 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
     """The search's and the verifier's, at random points of random boxes of random arms."""
     tight = []
     for trial in range(12):
-        arm, first = oracles.random_arm(rng, types="RRRRR", limits=2.5), trial % 3
+        types, first = ("RRRRR", "PRRRR", "RRPRR", "RPRRP")[trial % 4], trial % 3
+        arm = oracles.random_arm(rng, types=types, limits=2.5)
         chain, last = Chain.of(arm), 5 - trial % 2
         end = chain.origins[-1] if last == 5 else rng.uniform(-0.3, 0.3, 3)
         part, half = Segment.of(chain, first, last, end), rng.uniform(0.01, 0.2, (30, last - first))
@@ -286,6 +287,24 @@ def test_a_slide_and_a_single_target(mixed5, rng, tmp_path):
     proof = hf.certify(out_of_reach_claim(mixed5, (3 * far, 0, 0.1), 0, limits={0: (0.3, 0.3)}))
     assert proof.ok
     assert whole(checked(proof, tmp_path))
+
+
+@pytest.mark.parametrize(("centre", "fine"), [((3.03, 0.3), True), ((0.0, 0.0), True), ((2.8, 0.3), False)])
+def test_closed_form_of_an_arm_on_a_rail(three, tmp_path, centre, fine):
+    """Three links of 1 m from anywhere on 1 m of rail: where |r - 2 cos(theta/2)| <= 1 for some base on it is reached."""
+    rail = hf.Joint("rail", "prismatic", np.eye(4), axis=[0, 1, 0], lower=-0.5, upper=0.5)
+    arm = hf.Arm("on a rail", (rail, *three.joints), tool=three.tool)
+    claim = out_of_reach_claim(arm, (*centre, 0), (0.2, 0.2, 0.002), locked={"joint2": (0.6, 0.8)})
+    (x, y), elbow = np.abs(centre), 2 * np.cos(np.array([0.6, 0.8]) / 2)
+    nearest = np.hypot(max(x - 0.1, 0), max(y - 0.6, 0))
+    farthest = np.hypot(x + 0.1, y + 0.6)
+    assert (nearest > elbow[0] + 1 or farthest < elbow[1] - 1) == fine
+    proof = hf.certify(claim, halvings=16 if fine else 1)
+    assert proof.ok == fine
+    assert checked(proof, tmp_path).rejected == 0
+    if fine:  # a lemma about the base does it, which moves
+        assert [lemma["link"] for lemma in proof.document["lemmas"]] == [1]
+        assert proof.leaves < 200
 
 
 @pytest.mark.parametrize(("turned", "fine"), [(0.0, False), (2.8, True)])

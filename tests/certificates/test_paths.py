@@ -176,6 +176,18 @@ def test_an_arm_on_a_rail(tmp_path, rng):
         assert (np.abs(place - goal - line[:3]) <= sum(left) + 1e-12).all()
 
 
+def test_a_rail_that_locks_too_early(tmp_path):
+    """From where the shoulder then is, the links are not so long, one behind the other."""
+    arm = hf.arms.load("ur5-rail")
+    knots = np.array([[0.5, 0.2, -1.2, 1.5, -0.8, -1.5, 0.3]]) + [[0], [1.4]] * np.eye(7)[0]
+    proof = hf.certify(path_claim(arm, knots, failures=[0], during=(0, 0.25)), halvings=0)
+    assert proof.refuted == 1
+    assert hf.check_certificate(proof.write(tmp_path / "a.certificate")).refuted == 1
+    places = np.array([frame[:3, 3] for frame in arm.frames(knots[1])[2:]])
+    moved_back = 0.75 * 1.4
+    assert np.linalg.norm(places[-1] - places[0] + [0, moved_back, 0]) > np.linalg.norm(np.diff(places, axis=0), axis=1).sum()
+
+
 def test_a_tool_that_points(panda, tmp_path, rng):
     """It may turn about its axis: five rows, and one joint that follows."""
     proof = hf.certify(path_claim(panda, straight(panda, START, [0, 0, -0.03], 2), failures=[1, 4], task="pointing"))

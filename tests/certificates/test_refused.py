@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -49,3 +51,18 @@ def test_bounds_and_distances(panda, monkeypatch):
     monkeypatch.setattr(halving, "MOST_LEAVES", 0)
     with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a narrower interval"):
         hf.certify(out_of_reach_claim(panda, [0.5, 0, -0.3], 0.015, locked={1: (-0.35, -0.26)}))
+
+
+def test_targets_without_configurations(three, capsys, monkeypatch):
+    """Of a box that the arm reaches in part it is said how much is not; of one that it does not reach nothing is looked for."""
+    monkeypatch.delenv("HOLDFAST_NOTICES", raising=False)
+    corner = reach_claim(three, [2.6, 1.2], 0.6)
+    hf.certify(corner, halvings=1)
+    lost, drawn = map(int, re.search(r"no configuration is found for (\d+) of (\d+) targets", capsys.readouterr().err).groups())
+    axes = (np.linspace(*side, 200) for side in corner.box)
+    assert lost / drawn == pytest.approx((np.hypot(*np.meshgrid(*axes)) > 3).mean(), abs=0.12)  # four deviations
+    hf.certify(reach_claim(three, [1.5, 0.5], 0.2), halvings=1)
+    assert "no configuration" not in capsys.readouterr().err
+    for size, said in ((0.1, f"any of {drawn} targets"), (0.0, "this target")):
+        with pytest.raises(InputError, match=f"with joint2 locked, no configuration is found for {said}.*certify out-of-reach"):
+            hf.certify(reach_claim(three, [2.9, 0], size, locked={1: (1.0, 1.1)}))

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.certificates import reach_claim, tolerant_claim
+from holdfast.certificates import crew, reach_claim, tolerant_claim
 from holdfast.certificates.joint_boxes import jobs as boxes
 from holdfast.certificates.target_boxes import jobs
 from holdfast.certificates.tool_paths import jobs as motions
@@ -59,6 +59,17 @@ def test_a_search_that_was_stopped_is_resumed(claim, whole, tmp_path):
     some = hf.certify(claim, halvings=6, store=tmp_path, stop=lambda: next(asked) > 12)
     assert not some.finished
     assert proofs(hf.certify(claim, halvings=6, store=tmp_path)) == proofs(whole)
+
+
+def test_a_busy_machine_finds_the_same(three, monkeypatch):
+    """Boxes of a claim that is cut take turns; what each begins with takes as long as it takes."""
+    monkeypatch.setattr(jobs, "_LARGE", 8)
+    monkeypatch.setattr(jobs, "_JOB", 8)
+    claim = reach_claim(three, (1.5, 0.5), 0.8, locked={"joint2": (0.7, 1.3)})
+    quiet = hf.certify(claim, halvings=4)
+    monkeypatch.setattr(crew, "_SLICE", 1e-3)
+    busy = hf.certify(claim, halvings=4)
+    assert quiet.document["digest"] == busy.document["digest"]
 
 
 def killed(words, journal):

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+import shlex
 from contextlib import nullcontext
 
 import pytest
+
+import holdfast as hf
+from holdfast.errors import InputError
 
 
 def test_the_commands(cli, tmp_path):
@@ -143,3 +147,41 @@ def test_a_floor(cli, tmp_path):
     code, out, _ = cli(*words, "--above", "0.03")
     assert code == 4
     assert "Refuted: 0.02" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("reach panda --box '0.5 0' --size 0.1", "arms that move in the xy plane"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --lock 2=..1", "'2=..1' is no interval; write JOINT=LOW..HIGH"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --lock 2=1..0.5", "joint2 is 1 to 0.5; it must be"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --rotation-size 1", "give --rotation as well"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --out none/a.certificate", "there is no folder 'none'"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --out .", "is a folder; give the name of a file"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --out arm.urdf", "is there, and no certificate"),
+        ("tolerant planar-3r --box '1.5 0.5' --size 0.1 --out arm.urdf", "is there, and no certificate"),
+        ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within must not be negative"),
+        ("floor ur5-rail --limit rail=0..0.1 --above 0.1", "rail slides; bounds are for arms whose joints all turn"),
+        ("structural-zero ur5-rail rail", "structural zeros are for arms whose joints all turn"),
+        ("path planar-3r motion.csv --during 1", "--during takes two parts"),
+    ],
+)
+def test_what_makes_no_claim_is_said_before_the_search(refused, tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf").write_text("<robot/>")
+    assert said in refused("certify", *shlex.split(words))
+    assert (tmp_path / "arm.urdf").read_text() == "<robot/>"
+
+
+def test_the_arm_that_a_certificate_is_about(cli, refused, tmp_path):
+    file = tmp_path / "a.certificate"
+    words = ["--around", "-35 -45 51 -111 -46 84 -3", "--within", "3", "--degrees", "--below", "0.06", "--out", file]
+    assert cli("certify", "ceiling", "panda", *words)[0] == 4
+    code, out, _ = cli("certificate", "check", file, "--arm", "panda")
+    assert code == 0
+    assert "refuted    by a witness" in out
+    assert "another arm, 'panda': its joints are panda_joint1" in refused("certificate", "check", file, "--arm", "iiwa14")
+    panda = hf.arms.load("panda")
+    with pytest.raises(InputError, match="'panda': panda_joint1 differs"):
+        hf.check_certificate(file, arm=panda.with_limits(0.9 * panda.lower, panda.upper))
+    assert "undecided 100 %" in cli("certificate", "show", file)[1]

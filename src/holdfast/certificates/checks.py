@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from holdfast.arguments import checked
+from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.errors import InputError
 from holdfast.notice import says
@@ -27,6 +28,7 @@ class CertificateCheck(Result):
         seconds: Measured.
         said: The verifier's own sentence.
         parts: Of a bundle: the healthy arm, then each lock.
+        witnessed: A configuration shows that the claim is false.
     """
 
     claim: str
@@ -40,6 +42,7 @@ class CertificateCheck(Result):
     said: str
     parts: tuple[CertificateCheck, ...] = ()
     refuted: Fraction = Fraction(0)
+    witnessed: bool = False
 
     @property
     def ok(self) -> bool:
@@ -53,20 +56,28 @@ class CertificateCheck(Result):
 
 @checked
 @says("checking the certificate")
-def check_certificate(file: str | Path, *, sample: int | None = None, workers: int = 1) -> CertificateCheck:
+def check_certificate(
+    file: str | Path, *, arm: Arm | None = None, sample: int | None = None, workers: int = 1
+) -> CertificateCheck:
     """Check a certificate by the verifier, which shares nothing with the prover but the sentence of the claim.
 
     Args:
         file: The certificate; the parts of a bundle lie beside it.
+        arm: The arm that it must be about, to the last digit of its geometry and limits; None: it may be any.
         sample: Only so many cells of each part, drawn at random: then it is sampled, not verified.
         workers: Processes.
 
     Raises:
-        InputError: A file that cannot be checked, or python-flint is not installed (extra ``certify``).
+        InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra
+            ``certify``).
     """
     if workers < 1 or (sample is not None and sample < 1):
         raise InputError("sample and workers must be 1 or more")
     try:
+        if arm is not None:
+            from holdfast.certificates.documents import need_arm
+
+            need_arm(verifier.load(Path(file)), arm)
         return _of(verifier.verify(file, sample=sample, workers=workers))
     except verifier.Refused as error:
         raise InputError(str(error)) from error
@@ -86,4 +97,5 @@ def _of(found: verifier.Verdict) -> CertificateCheck:
         said=found.sentence,
         parts=tuple(map(_of, found.parts)),
         refuted=found.false,
+        witnessed=found.refuted,
     )

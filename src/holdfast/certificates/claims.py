@@ -167,6 +167,8 @@ def _targets(
     if task not in (None, "pointing"):
         raise InputError(f"task is '{task}'; give pointing, or leave it out: the box and the rotation say the rest")
     if rotation is None and rpy is None and task is None:
+        if len(box) == 2:
+            need_flat(arm, "a box of two coordinates is", slides=True)
         return box, _TASKS[len(box)], None
     if (rotation is None) == (rpy is None):
         raise InputError("rotation and rpy both say how the tool is turned; give one of them")
@@ -241,7 +243,10 @@ def within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:
     found = np.asarray(pair, dtype=np.float64).reshape(-1)
     if found.shape != (2,) or not np.isfinite(found).all() or found[0] > found[1]:
         values = "lengths, m" if arm.prismatic[k] else "angles, rad"
-        raise InputError(f"the interval of {arm.joint_names[k]} must be two finite {values}, the lower one first")
+        given = " to ".join(f"{x:.4g}" for x in found)
+        raise InputError(
+            f"the interval of {arm.joint_names[k]} is {given}; it must be two finite {values}, the lower one first"
+        )
     if found[0] < arm.lower[k] or found[1] > arm.upper[k]:
         factor, unit = arm.joints[k].shown
         low, high, least, most = (factor * x for x in (*found, arm.lower[k], arm.upper[k]))
@@ -299,15 +304,16 @@ def out_of_reach_claim(
     return OutOfReachClaim(arm=arm, task=rows, box=box, rotation=turned, locked=which, angle=angle, limits=kept)
 
 
-def need_flat(arm: Arm, what: str) -> None:
-    """Refuse an arm whose axes are not all parallel to z; ``what`` is asked of it."""
+def need_flat(arm: Arm, what: str, slides: bool = False) -> None:
+    """Refuse an arm whose joints do not all turn about axes parallel to z, or slide, if they may; ``what`` is asked of it."""
     turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
-    if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(abs(joint.axis[2]) == 1 for joint in arm.joints):
+    upright = [slides if joint.prismatic else abs(joint.axis[2]) == 1 for joint in arm.joints]
+    if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(upright):
         raise InputError(f"{what} for arms that move in the xy plane, and this one leaves it")
 
 
-def need_turning(arm: Arm) -> None:
-    """Refuse an arm with a joint that slides."""
+def need_turning(arm: Arm, what: str) -> None:
+    """Refuse an arm with a joint that slides; ``what`` is asked of it."""
     if arm.prismatic.any():
         slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
-        raise InputError(f"{slides[0]} slides; certificates are for arms whose joints all turn")
+        raise InputError(f"{slides[0]} slides; {what} for arms whose joints all turn")

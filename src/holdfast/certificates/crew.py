@@ -20,6 +20,7 @@ import numpy as np
 from holdfast.certificates.tree import SearchState, Tell
 from holdfast.engine.memory import Memory, Parts
 from holdfast.errors import HoldfastError
+from holdfast.notice import aside
 
 _BEGIN = 4  # of the time limit, to begin with
 _SLICE = 2.0  # s on a part, then on the next, so that a search that is stopped has something of each
@@ -141,7 +142,7 @@ class Crew:
     def __init__(self, jobs: Sequence[Job], *, memory: Memory | None = None, tell: Tell) -> None:
         self._tell, self._memory, self._count = tell, memory, len(jobs)
         self._found, self._states = dict[str, Found](), dict[str, tuple[float, SearchState]]()
-        self._open, self.nodes = list[Job](), 0
+        self._open, self.nodes, self._warned = list[Job](), 0, set[str]()
         for job in jobs:
             self._take(job)
 
@@ -167,6 +168,9 @@ class Crew:
 
     def _hear(self, job: Job, state: SearchState) -> None:
         self._states[job.name] = job.share, state
+        if state.warning and state.warning not in self._warned:
+            self._warned.add(state.warning)
+            aside(state.warning)
         parts = ("proved", "refuted", "undecided")
         states = self._states.values()
         shares = {key: sum(share * getattr(s, key) for share, s in states) / self._count for key in parts}
@@ -186,6 +190,7 @@ class Crew:
             now = monotonic()
             begun = job.begun(now if stop() else now + (ready - now) / left)
             begun.found().need_room()
+            self._hear_of(begun)
             if begun.finished:
                 self._keep(job, begun.found())
             else:
@@ -202,7 +207,7 @@ class Crew:
             for left, given in zip(range(len(turns), 0, -1), turns, strict=True):
                 now = monotonic()
                 share = (end - now) / left
-                work = given(now + share / 2)
+                work = given(now + share / 2)  # beginnings are whole unless time is short: what they find counts
                 work.run(min(now + share, monotonic() + turn), stop, partial(self._hear_of, work))
                 if work.finished:
                     self._keep(work.job, work.found())

@@ -26,6 +26,7 @@ from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.rings import rings_of
 from holdfast.certificates.tree import PROVED
+from holdfast.errors import InputError
 
 Document = dict[str, Any]
 
@@ -198,6 +199,23 @@ def _signed(document: Document) -> Document:
     document["arm_digest"] = verifier.digest(document["arm"])
     document["claim"] = verifier.sentence(document)
     return document | {"digest": verifier.digest(document)}
+
+
+def need_arm(document: Document, arm: Arm) -> None:
+    """Refuse a certificate of another arm.
+
+    Raises:
+        InputError: With its name, and what differs.
+    """
+    theirs, ours = document["arm"], _stored(arm)
+    if theirs == ours:
+        return
+    names = [[joint["name"] for joint in one["joints"]] for one in (theirs, ours)]
+    what = f"its joints are {', '.join(names[0])}"
+    if names[0] == names[1]:
+        pairs = zip([*names[0], "the tool"], [*theirs["joints"], theirs["tool"]], [*ours["joints"], ours["tool"]], strict=True)
+        what = f"{next(name for name, a, b in pairs if a != b)} differs"
+    raise InputError(f"the certificate is about another arm, '{document['source']['name']}': {what}")
 
 
 def _stored(arm: Arm) -> Document:

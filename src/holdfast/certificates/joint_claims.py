@@ -100,7 +100,7 @@ def _bound(
 ) -> BoundClaim:
     if task not in _SIX:
         raise InputError(f"task is '{task}'; bounds are for {' and '.join(_SIX)}, whose rows are all of the motion")
-    need_turning(arm)
+    need_turning(arm, "bounds are")
     locks = tuple(sorted(single_joints(arm, failures)))
     require_redundant(arm, _SIX[task], task, tuple((k,) for k in locks))
     if task == "planar-pose":
@@ -156,7 +156,7 @@ def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5
     Raises:
         InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
     """
-    need_turning(arm)
+    need_turning(arm, "structural zeros are")
     which = arm.joint_index(joint)
     if not 1 <= which <= arm.n - 2:
         raise InputError(f"{arm.joint_names[which]} is not between other joints, and only these can have a structural zero")

@@ -35,11 +35,13 @@ class Chain:
         rotations: (n + 1, 3, 3) of each joint's frame in the one before, the tool's last.
         origins: (n + 1, 3) likewise, m.
         lengths: (n,) m, of what joint k and those before it turn and joint k + 1 does not; of a slide without its value.
+        slides: (n,) which joints slide.
     """
 
     rotations: Array
     origins: Array
     lengths: Array
+    slides: Flags
 
     @classmethod
     def of(cls, arm: Arm) -> Chain:
@@ -60,7 +62,7 @@ class Chain:
             if not slides[k + 1]:
                 link = link + rotations[k + 1] @ [0, 0, origins[k + 2][2]]
             links.append(float(np.linalg.norm(link)))
-        return cls(rotations, origins, np.array(links))
+        return cls(rotations, origins, np.array(links), arm.prismatic)
 
     def nearest(self, k: int) -> tuple[float, float] | None:
         """Where the axes of joint k and the next are nearest to each other: heights on them, m; None if they are parallel."""

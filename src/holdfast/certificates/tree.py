@@ -24,6 +24,7 @@ class SearchState:
         refuted: Likewise, of a path; of other claims all is refuted by one witness.
         open: The share that is still to be looked at.
         nodes: Boxes that were looked at.
+        warning: What is known beforehand: that much of it cannot be proved; or empty.
     """
 
     proved: float
@@ -31,6 +32,7 @@ class SearchState:
     open: float
     nodes: int
     refuted: float = 0.0
+    warning: str = ""
 
 
 Tell = Callable[[SearchState], None]

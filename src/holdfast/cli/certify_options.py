@@ -56,7 +56,9 @@ class Targets:
 
         if self.rotation is None:
             if self.rotation_size is not None or self.pointing:
-                raise InputError("--rotation-size is the box around --rotation, --pointing about its z axis; give that, too")
+                raise InputError(
+                    "--rotation-size is a box around --rotation, and --pointing about its z axis; give --rotation as well"
+                )
             return {}
         angles = read_numbers("--rotation", self.rotation, "roll, pitch and yaw")
         edges = read_numbers("--rotation-size", self.rotation_size or "0", "one number, or three,")
@@ -89,6 +91,8 @@ class Configurations:
             half = read_numbers("--within", self.within, f"one number, or {arm.n},")
             if len(middle) != arm.n or len(half) not in (1, arm.n):
                 raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+            if (half < 0).any():
+                raise InputError("--within must not be negative: it is half widths")
             pairs = zip(arm.joint_names, middle, [*half] * (arm.n // len(half)), strict=True)
             texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
             box = intervals(arm, "--around", texts, degrees)
@@ -123,7 +127,7 @@ def intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> 
     for text in texts or []:
         joint, _, span = text.rpartition("=")
         low, dots, high = span.partition("..")
-        if not dots:
+        if not (dots and low and high):
             raise InputError(
                 f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
             )

@@ -11,14 +11,28 @@ from holdfast.cli.certify_options import REFUTED, REJECTED, Search, Written
 from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import NOT_MET
 from holdfast.cli.progress import progress_bar
+from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed, said
+
+_OURS = "", ".certificate", ".zip"  # ends of names that are replaced
+
+
+def _need_place(out: Path, folder: bool) -> None:
+    """Refuse before the search what could not be written after it, or would replace what is no certificate."""
+    if out.is_dir() and not folder:
+        raise InputError(f"--out '{out}' is a folder; give the name of a file")
+    if out.is_file() and out.suffix not in _OURS:
+        raise InputError(f"--out '{out}' is there, and no certificate; give another name, such as {out.stem}.certificate")
+    if (out.suffix or not folder) and not out.absolute().parent.is_dir():
+        raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")
 
 
 def proved(claim: Any, search: Search, written: Written, **how: Any) -> None:
     """Search, write, check, draw, print."""
-    from holdfast.certificates import PathProof
+    from holdfast.certificates import PathProof, TolerantClaim
     from holdfast.present.certificates.console import state
 
+    _need_place(written.out, isinstance(claim, TolerantClaim))
     bar = progress_bar(written.json_, "ten-thousandths")
     with stopping("") as stop, bar as progress:
         how |= {"time_limit": search.time_limit, "workers": search.workers, "store": search.store}

@@ -8,7 +8,7 @@ axes (a shoulder) the lemma is the whole proof. The tool itself is the last such
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
@@ -92,13 +92,10 @@ def exclude(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) ->
         return Exclusion([], b"\2", Fraction(1), 0, 1, True, found)
     chain, joints = Chain.of(claim.arm), ranges(claim)
     if claim.task.startswith("planar"):  # all of it happens in the plane
-        chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
+        chain = replace(chain, origins=chain.origins * [1, 1, 0])
     box, lemmas, tested, rows = np.vstack([joints, claim.box]), list[Lemma](), 0, Rows(claim, joints)
     place = claim.box[: rows.reach.linear]
-    points = (
-        [] if claim.arm.prismatic.any() else points_on_axes(chain, joints, rng)[:_MOST_LEMMAS]
-    )  # lemmas are of joints that turn
-    for link, point in points:
+    for link, point in points_on_axes(chain, joints, rng)[:_MOST_LEMMAS]:
         lemma, nodes = _lemma(chain, joints, place, link, point, effort.end, rng)
         tested += nodes
         if lemma is not None:
@@ -171,6 +168,7 @@ def _lemma(
     segment = Segment.of(chain, link, n, chain.origins[-1])
     least, most = _span(segment, joints[link:], point, rng)
     total = float(segment.lengths.sum() + np.linalg.norm(segment.origins, axis=1).sum() + np.linalg.norm(point))
+    total += float(np.abs(joints[link:]).max(axis=1)[segment.slides].sum())
     margin = max(_NARROW[0] * (most - least), _NARROW[1] * total)
     asked = max(0.0, least - margin), most + margin
     if link == 0:  # where this alone excludes all targets, as wide as does

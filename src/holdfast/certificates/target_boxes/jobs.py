@@ -26,6 +26,7 @@ from holdfast.words import duration
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
+_MANY = 0.1  # of the targets drawn first: where no configuration is found of so many, it is said
 _LARGE, _JOB = 1 << 16, 1 << 14  # cells: of a part that is cut, and of each job of it
 
 
@@ -42,6 +43,7 @@ class Found:
         cut: Axes along which the box is to be halved one after the other, each half another job: nothing was looked for.
         cells: That it would take, estimated.
         advice: What is said of that where they are too many.
+        nowhere: Why nothing can be proved: no configuration of any target is found; or empty.
     """
 
     tree: bytes
@@ -52,6 +54,7 @@ class Found:
     cut: tuple[int, ...] = ()
     cells: float = 0.0
     advice: str = ""
+    nowhere: str = ""
 
     @property
     def too_many(self) -> bool:
@@ -59,11 +62,13 @@ class Found:
         return verifier.MOST_LEAVES < self.cells < np.inf
 
     def need_room(self) -> None:
-        """Refuse what would take too many cells.
+        """Refuse what would take too many cells, or has no configurations.
 
         Raises:
             InputError: With the estimate.
         """
+        if self.nowhere:
+            raise InputError(self.nowhere)
         if self.too_many:
             raise InputError(
                 f"single configurations prove so little of this box that it would take some {self.cells:.0e} cells{self.advice}"
@@ -174,7 +179,7 @@ class Running:
         reach = Reach(claim.arm, claim.task, claim.locked, claim.limits, claim.rotation, claim.angle)
         seed = job.seed if not job.cut else [job.seed, job.number, *job.cut]
         self._search = Search(reach, box, job.halvings - depth, seed, until)
-        self._advice = ""
+        self._advice, (self._nowhere, self._warning) = "", self._beforehand()
         self._cells, self._cut = 0.0 if job.cut else self._search.pool.cells, tuple[int, ...]()
         if _LARGE < self._cells <= verifier.MOST_LEAVES:
             self._cut = self._search.pool.cut(int(np.ceil(np.log2(self._cells / _JOB))), job.halvings)
@@ -182,7 +187,7 @@ class Running:
             axes, lock = int((box[:, 1] > box[:, 0]).sum()), " and of the interval of the lock" * (claim.angle is not None)
             part = int(np.ceil((self._cells / verifier.MOST_LEAVES) ** (1 / axes)))
             self._advice = f" and {duration(self._search.pool.seconds)}; with 1/{part} of each edge{lock} it would fit"
-        self.finished = bool(self._cut) or self.found().too_many
+        self.finished = bool(self._cut or self._nowhere) or self.found().too_many
         self._seconds = perf_counter() - began
 
     def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
@@ -196,10 +201,25 @@ class Running:
         """How far it has come, as shares of its box."""
         search = self._search
         left = min(max(search.open, 0.0), 1.0)
-        return SearchState(proved=search.proved, undecided=max(1 - left - search.proved, 0.0), open=left, nodes=search.nodes)
+        rest = max(1 - left - search.proved, 0.0)
+        return SearchState(proved=search.proved, undecided=rest, open=left, nodes=search.nodes, warning=self._warning)
 
     def found(self) -> Found:
         """What is found so far."""
         tree, centres = self._search.tree.in_order()
         rows = np.array(centres, dtype=np.int64).reshape(-1, self.job.claim.arm.n)
-        return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells, self._advice)
+        said = self._advice, self._nowhere
+        return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells, *said)
+
+    def _beforehand(self) -> tuple[str, str]:
+        """Why nothing can be proved, and that much cannot, by the targets of the whole that were drawn first."""
+        claim, (drawn, lost) = self.job.claim, (self._search.pool.drawn, self._search.pool.lost)
+        if self.job.cut or not drawn or lost < _MANY * drawn:
+            return "", ""
+        who = f"with {claim.arm.joint_names[claim.locked]} locked, " if claim.locked >= 0 else ""
+        if lost == drawn:
+            one = not (claim.box[:, 1] > claim.box[:, 0]).any()
+            what = "this target" if one else f"any of {drawn} targets of the box"
+            return f"{who}no configuration is found for {what}: nothing can be proved; see certify out-of-reach", ""
+        share = f"some {100 * lost / drawn:.0f} % of it cannot be proved"
+        return "", f"{who}no configuration is found for {lost} of {drawn} targets of the box: {share}"

@@ -45,6 +45,7 @@ class Pool:
         seconds: That this would take here.
         halved: (A,) how often each axis is halved for them, in the mean.
         wanted: How many more times as many targets the claim asks for; more where there was no time for the first.
+        drawn, lost: Targets that were drawn first, and those of them of which no configuration was found.
     """
 
     def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
@@ -56,6 +57,7 @@ class Pool:
         self._best, self._tree = list[tuple[Array, Array]](), cast(Any, None)
         self._half = np.zeros(len(root))
         self.wanted = 1
+        self.drawn = self.lost = 0
         self.q, self._at = self._grown()
         self.cells, self.halved, self.seconds = self._estimate(self.q, self._at)
         self.wanted += max(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1, 0)
@@ -75,6 +77,8 @@ class Pool:
         q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
         q = reach.solved(q, at[:, : reach.axes], 40)
         met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
+        if not self.drawn:
+            self.drawn, self.lost = len(at) // _STARTS, int((~met.reshape(-1, _STARTS).any(axis=1)).sum())
         q, at = q[met], at[met]
         if not self._half.any():
             self._half = _WIDER / 2 * self._width * 0.5 ** self._estimate(q, at)[1]

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
-from holdfast.certificates.claims import ROWS, need_flat, need_turning
+from holdfast.certificates.claims import ROWS, need_flat
 from holdfast.certificates.tool_paths.cells import SEGMENT
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
@@ -89,7 +89,6 @@ def path_claim(
         raise InputError("there is no tube around a pointing path; tube must be 0")
     if task == "planar-pose":
         need_flat(arm, "a planar pose is")
-        need_turning(arm)
     locks = tuple(sorted(single_joints(arm, failures)))
     require_redundant(arm, len(ROWS[task]), task, tuple((k,) for k in locks))
     given = real_numbers(getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad and m")

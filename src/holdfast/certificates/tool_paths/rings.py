@@ -7,7 +7,7 @@ spherical shoulder and wrist, that of the two on the elbow alone. Everything her
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
 
 import numpy as np
@@ -98,9 +98,9 @@ class Rings:
 
     def __init__(self, following: Following, turns: bool, flat: bool) -> None:
         self._f, self._turns, chain = following, turns, following.chain
-        self._chain = Chain(chain.rotations, chain.origins * np.array([1, 1, not flat]), chain.lengths)
+        self._chain = replace(chain, origins=chain.origins * np.array([1, 1, not flat]))
         self._joint, self._limits, full = following.still[0], following.limits.copy(), np.nextafter(np.pi, 4)
-        self._limits[self._limits[:, 1] - self._limits[:, 0] >= 2 * np.pi] = -full, full
+        self._limits[~chain.slides & (self._limits[:, 1] - self._limits[:, 0] >= 2 * np.pi)] = -full, full
         self._end, self._kept = (len(following.knots) - 1) * SEGMENT, np.array([1, 1, not flat])
         self._rng = np.random.default_rng(_SEED)
         self.points, self.pairs = self._chosen()
@@ -140,7 +140,7 @@ class Rings:
         base = chain.origins[n] - back @ (place * self._kept)
         rotations = np.concatenate([chain.rotations[:n], [back @ chain.rotations[0]], chain.rotations[1:]])
         origins = np.concatenate([chain.origins[:n], [base + back @ chain.origins[0]], chain.origins[1:]])
-        ring = Chain(rotations, origins, np.tile(chain.lengths, 2))
+        ring = Chain(rotations, origins, np.tile(chain.lengths, 2), np.tile(chain.slides, 2))
         return _Way.of(ring, first, last, a, b), _Way.of(ring, last, n + first, b, a if first else base + back @ a)
 
     def tried(self, begin: int, stop: int) -> tuple[Never | None, bool, int]:
@@ -172,7 +172,7 @@ class Rings:
             gram = ours @ ours.transpose(0, 2, 1) + 1e-9 * np.eye(f.m)
             q[:, f.free] -= np.clip((ours.transpose(0, 2, 1) @ np.linalg.solve(gram, error[:, :, None]))[:, :, 0], -0.4, 0.4)
         # Nearest to the middles of the limits, of all that are the same.
-        q[:, f.free] -= 2 * np.pi * np.round((q - (low + high) / 2) / (2 * np.pi))[:, f.free]
+        q -= 2 * np.pi * np.round((q - (low + high) / 2) / (2 * np.pi)) * ([k in f.free for k in range(f.n)] & ~f.slides)
         at_last = f.moved(q)
         good = (np.abs(f.missed(at_last, target)[0]) < _MET).all(axis=1) & ((q >= low) & (q <= high))[:, f.free].all(axis=1)
         if f.rotated:
@@ -189,10 +189,12 @@ class Rings:
 
 
 def rings_of(claim: PathClaim, joint: int) -> Rings | None:
-    """What refutes lock instants of a joint; None of an arm with slides, or that leaves the plane of its task."""
+    """What refutes lock instants of a joint; None of an arm with endless slides, or that leaves the plane of its task."""
     chain, limits = Chain.of(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
     flat = claim.task.startswith("planar")
-    if claim.arm.prismatic.any() or (flat and not (np.abs(chain.rotations[:, 2, 2]) == 1).all()):
+    endless = claim.arm.prismatic & ~np.isfinite(limits).all(axis=1)
+    in_plane = not chain.slides.any() and (np.abs(chain.rotations[:, 2, 2]) == 1).all()
+    if endless.any() or (flat and not in_plane):
         return None
     arm = Following(chain, claim.knots, claim.task, still=[joint], tube=np.empty(0), limits=limits, slides=claim.arm.prismatic)
     return Rings(arm, "pose" in claim.task, flat)

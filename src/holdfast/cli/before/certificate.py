@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +10,7 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.certify_options import REJECTED
+from holdfast.cli.groups import Chain
 from holdfast.cli.options import JsonOption
 from holdfast.errors import InputError
 from holdfast.present.results import printed
@@ -27,18 +29,28 @@ def check(
     file: FileArgument,
     sample: Annotated[int | None, "Only so many cells, drawn at random."] = None,
     workers: Annotated[int, "Processes."] = 1,
+    arm: Annotated[str | None, "The arm that it must be about, as ARM elsewhere."] = None,
+    chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
     """Check a certificate: every cell again, in ball arithmetic.
 
-    The exit code is 1 if a cell is rejected.
+    The exit code is 1 if a cell is rejected, 2 if the file cannot be checked or is about another arm.
 
     Example: holdfast certificate check reach.certificate
     """
-    found = hf.check_certificate(file, sample=sample, workers=workers)
+    meant = None if arm is None else chain.arm(arm)
+    found = hf.check_certificate(file, arm=meant, sample=sample, workers=workers)
     printed(found, json_)
     if found.rejected:
         raise typer.Exit(REJECTED)
+
+
+def _share(text: str) -> Fraction:
+    """``a/b`` or ``a/2^b``."""
+    above, below = text.split("/")
+    base, _, power = below.partition("^")
+    return Fraction(int(above), int(base) ** int(power or 1))
 
 
 @command.command()
@@ -53,9 +65,10 @@ def show(file: FileArgument) -> None:
         document = verifier.load(file)
     except verifier.Refused as error:
         raise InputError(str(error)) from error
-    volumes, arm = document["volumes"], document["source"]["name"]
+    volumes, arm = {key: _share(part) for key, part in document["volumes"].items()}, document["source"]["name"]
     typer.echo(document["claim"])
     typer.echo(
         f"A {document['kind']} of {arm}, whose file has {len(document['arm']['joints'])} joints; digest {document['digest']}."
     )
-    typer.echo(f"Claimed, not checked: proved {volumes['proved']}, undecided {volumes['undecided']}; {document['made_by']}.")
+    shares = [f"{key} {verifier.per_cent(part, up=key == 'undecided')}" for key, part in volumes.items() if part]
+    typer.echo(f"Claimed, not checked: {', '.join(shares)}; {document['made_by']}.")

@@ -34,7 +34,7 @@ from holdfast.present.results import printed
 
 command = typer.Typer(
     name="certify",
-    help="Prove that an arm reaches every target of a box, and write a certificate.",
+    help="Prove what an arm does for every target, configuration or lock of a box, and write a certificate.",
     no_args_is_help=True,
 )
 

@@ -13,6 +13,7 @@ from holdfast.cli.certify_search import proved
 from holdfast.cli.groups import Chain
 from holdfast.cli.options import ArmArgument, FailuresOption
 from holdfast.cli.values import read_numbers
+from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
 
 
@@ -39,12 +40,14 @@ def path(
     """
     from holdfast.paths.joint_table import joint_columns, read_joint_table
 
-    model = chain.arm(arm)
+    model, when = chain.arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
+    if len(when) != 2:
+        raise InputError("--during takes two parts of the motion, for example --during '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
         read_joint_table(model, motion, "motion", "time_s").numbers(joint_columns(model)),
         failures=read_failures(model, failures),
-        during=tuple(read_numbers("--during", during, "two numbers from 0 to 1").tolist()),
+        during=tuple(when),
         tube=read_numbers("--tube", tube, "one number or two, m and rad,"),
         task=task,
         segments=segments,

@@ -102,8 +102,8 @@ def key_table(found: Found | StructuralZero) -> Rows:
         rows = [
             ["accepted", f"{found.accepted:,}"],
             ["rejected", f"{found.rejected:,}"],
-            ["refuted", per_cent(found.refuted)],
-            ["undecided", per_cent(found.undecided, up=True)],
+            ["refuted", "by a witness" if found.witnessed else per_cent(found.refuted)],
+            ["undecided", "the rest" if found.witnessed else per_cent(found.undecided, up=True)],
         ]
         return Rows(["", ""], rows)
     rows = [["proved, not yet verified", per_cent(found.proved)], ["undecided", per_cent(found.undecided, up=True)]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -68,16 +69,7 @@ class Leaves:
                 ends, last, names, turns, packed = ends[behind], 2, names[behind], turns[behind], lemma["tree"]
         else:
             ends, last, locks = found.claim.joint_box, 2, verifier.LOCK
-        tree = verifier.unpacked(packed, 2 * verifier.MOST_LEAVES, "tree")
-        tokens = list[int]()
-
-        def numbers() -> Any:
-            for token, cell in verifier.cells(tree, len(ends), last, locks):
-                tokens.append(token)
-                yield from chain.from_iterable(cell)
-
-        flat = np.fromiter(numbers(), dtype=np.int64).reshape(-1, len(ends), 2)
-        return cls(ends, names, turns, flat[:, :, 0], flat[:, :, 1], np.isin(tokens, (1, UNDECIDED)))
+        return cls(ends, names, turns, *_unfolded(packed, len(ends), last, locks))
 
     @property
     def halvings(self) -> Index:
@@ -121,6 +113,20 @@ class Leaves:
             worst = np.maximum(worst, np.kron(each, spread))
             left |= np.kron(open_, spread).astype(bool)
         return worst, left
+
+
+@lru_cache(maxsize=1)  # a page has a table of them, and a picture
+def _unfolded(packed: str, axes: int, last: int, locks: int) -> tuple[Index, Index, NDArray[np.bool_]]:
+    """Of the leaves of a tree, by axes: which box of how often halved ones (N, A); and which are undecided."""
+    tree, tokens = verifier.unpacked(packed, 2 * verifier.MOST_LEAVES, "tree"), list[int]()
+
+    def numbers() -> Any:
+        for token, cell in verifier.cells(tree, axes, last, locks):
+            tokens.append(token)
+            yield from chain.from_iterable(cell)
+
+    flat = np.fromiter(numbers(), dtype=np.int64).reshape(-1, axes, 2)
+    return flat[:, :, 0], flat[:, :, 1], np.isin(tokens, (1, UNDECIDED))
 
 
 def _shown_as(turns: NDArray[np.bool_]) -> Array:
