@@ -68,7 +68,7 @@ def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
         arm, rows = (flat4, [0, 1, 5]) if kind == "planar" else (oracles.random_arm(rng, types=kind, limits=2.5), slice(None))
         n, chain, half = arm.n, Chain.of(arm), 10 ** rng.uniform(-3, -0.8, (8, arm.n))
         if kind == "planar":
-            chain = Chain(chain.rotations, chain.origins * [1, 1, 0], chain.lengths)
+            chain = replace(chain, origins=chain.origins * [1, 1, 0])
         middle = rng.uniform(-2, 2, half.shape)
         steps = rng.choice([-1.0, 1.0, 0.3], (40, *half.shape))
         true = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).max(axis=0)
