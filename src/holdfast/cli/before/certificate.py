@@ -30,9 +30,7 @@ def check(
         int | None, typer.Option("--sample", help="Only so many cells, drawn at random.", show_default=False)
     ] = None,
     workers: Annotated[int, typer.Option("--workers", help="Processes.")] = 1,
-    arm: Annotated[
-        str | None, typer.Option("--arm", help="The arm that it must be about, as ARM elsewhere.", show_default=False)
-    ] = None,
+    arm: Annotated[str | None, typer.Option("--arm", help="ARM that it must be about.", show_default=False)] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

@@ -65,14 +65,14 @@ def path(
     """
     from holdfast.paths.joint_table import joint_columns, read_joint_table
 
-    model, when = read_arm(arm, base, tip, hold), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
-    if len(when) != 2:
+    model, when = read_arm(arm, base, tip, hold), read_numbers("--during", during, "two numbers from 0 to 1")
+    if when.size != 2:
         raise InputError("--during takes two parts of the motion, for example --during '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
         read_joint_table(model, motion, "motion", "time_s").numbers(joint_columns(model)),
         failures=read_failures(model, failures),
-        during=tuple(when),
+        during=tuple(when.tolist()),
         tube=read_numbers("--tube", tube, "one number or two, m and rad,"),
         task=task,
         segments=segments,
