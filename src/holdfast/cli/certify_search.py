@@ -15,14 +15,12 @@ from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed, said
 
-_OURS = "", ".certificate", ".zip"  # ends of names that are replaced
-
 
 def _need_place(out: Path, folder: bool) -> None:
-    """Refuse before the search what could not be written after it, or would replace what is no certificate."""
+    """Refuse before the search what could not be written after it, or would replace another file."""
     if out.is_dir() and not folder:
         raise InputError(f"--out '{out}' is a folder; give the name of a file")
-    if out.is_file() and out.suffix not in _OURS:
+    if out.is_file() and out.suffix not in ("", ".certificate", ".zip"):
         raise InputError(f"--out '{out}' is there, and no certificate; give another name, such as {out.stem}.certificate")
     if (out.suffix or not folder) and not out.absolute().parent.is_dir():
         raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")

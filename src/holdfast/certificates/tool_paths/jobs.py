@@ -57,12 +57,9 @@ class Found:
     def state(self) -> SearchState:
         """Of the lock."""
         done, gone = (sum(one.stop - one.begin for one in ours) for ours in (self.slabs, self.never))
-        shares = {
-            "proved": done / self.whole,
-            "refuted": gone / self.whole,
-            "undecided": (self.closed - done - gone) / self.whole,
-        }
-        return SearchState(**shares, open=1 - self.closed / self.whole, nodes=self.nodes)
+        proved, refuted, rest = (x / self.whole for x in (done, gone, self.closed - done - gone))
+        left = 1 - self.closed / self.whole
+        return SearchState(proved=proved, refuted=refuted, undecided=rest, open=left, nodes=self.nodes)
 
     def stored(self) -> Parts:
         """As a memory keeps it."""
