@@ -309,7 +309,12 @@ def told(done: int, total: int, left: float | None = None) -> None:
 
 
 def _shown(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+    for size, unit in ((1, "s"), (60, "min"), (3600, "h"), (86400, "days")):
+        if seconds < 100 * size:
+            break
+    else:
+        size, unit = 31_557_600, "years"
+    return f"{seconds / size:.0f} {unit}"
 
 
 def _bar() -> _Bar | None:
