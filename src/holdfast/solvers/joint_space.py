@@ -72,6 +72,13 @@ def wrapped(arm: Arm, q: Array) -> Array:
     return np.where(turning(arm), np.arctan2(np.sin(q), np.cos(q)), q)
 
 
+def unwound(arm: Arm, q: Array) -> Array:
+    """Configurations (..., n) with revolute joints less than a turn from the middle of their limits: what is the same turns less."""
+    middle = np.where(turning(arm), 0.0, (arm.lower + arm.upper) / 2)
+    turns = np.rint((q - middle) / (2 * np.pi))
+    return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, turns)
+
+
 def folded(arm: Arm, q: Array) -> Array:
     """Configurations (N, n) with joints that turn without limits in 0 to 2 pi, 2 pi left out."""
     x = q % (2 * np.pi)
