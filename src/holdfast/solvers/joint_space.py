@@ -74,7 +74,8 @@ def wrapped(arm: Arm, q: Array) -> Array:
 
 def unwound(arm: Arm, q: Array) -> Array:
     """Configurations (..., n) with revolute joints less than a turn from the middle of their limits: what is the same turns less."""
-    middle = np.where(turning(arm), 0.0, (arm.lower + arm.upper) / 2)
+    free = turning(arm)
+    middle = (np.where(free, 0.0, arm.lower) + np.where(free, 0.0, arm.upper)) / 2
     turns = np.rint((q - middle) / (2 * np.pi))
     return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, turns)
 
