@@ -29,7 +29,6 @@ else:
                 return self
             return instance.__dict__.setdefault(self._name, self._compute(instance))
 
-
     def _given(self: Any) -> dict[str, Any]:
         """What a copy or another process gets: all but what was computed, among it kernels, which stay where they are."""
         made = type(self)

@@ -309,11 +309,8 @@ def told(done: int, total: int, left: float | None = None) -> None:
 
 
 def _shown(seconds: float) -> str:
-    for size, unit in ((1, "s"), (60, "min"), (3600, "h"), (86400, "days")):
-        if seconds < 100 * size:
-            break
-    else:
-        size, unit = 31_557_600, "years"
+    units = [(1, "s"), (60, "min"), (3600, "h"), (86400, "days"), (31_557_600, "years")]
+    size, unit = next((each for each in units if seconds < 100 * each[0]), units[-1])
     return f"{seconds / size:.0f} {unit}"
 
 
