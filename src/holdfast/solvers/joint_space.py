@@ -73,7 +73,7 @@ def wrapped(arm: Arm, q: Array) -> Array:
 
 
 def unwound(arm: Arm, q: Array) -> Array:
-    """Configurations (..., n) with revolute joints within half a turn of the middle of their limits, if there are two or none."""
+    """Configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without limits."""
     free = turning(arm)
     middle = (np.where(free, 0.0, arm.lower) + np.where(free, 0.0, arm.upper)) / 2
     turns = np.rint((q - middle) / (2 * np.pi))
