@@ -79,6 +79,14 @@ def test_long_work_is_named_once_and_its_time_said_when_it_is_known(clock, said)
     assert said() == []
 
 
+@pytest.mark.parametrize(("total", "left"), [(3_000, "50 min"), (86_401, "24 h"), (5e6, "58 days"), (1e12, "31688 years")])
+def test_a_long_time_is_told_in_its_own_unit(clock, said, total, left):
+    with working("thinking") as advance:
+        clock.now = 9.0
+        advance(9, total)
+        assert said() == [f"holdfast: thinking, about {left} more"]
+
+
 def test_what_was_done_before_does_not_count(clock, said):
     with working("going on") as advance:
         advance(60, 100)

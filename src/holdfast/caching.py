@@ -21,11 +21,18 @@ else:
 
         def __set_name__(self, owner: type, name: str) -> None:
             self._name = name
+            if owner.__getstate__ is object.__getstate__:
+                owner.__getstate__ = _given
 
         def __get__(self, instance: Any, owner: type | None = None) -> Any:
             if instance is None:
                 return self
             return instance.__dict__.setdefault(self._name, self._compute(instance))
+
+    def _given(self: Any) -> dict[str, Any]:
+        """What a copy or another process gets: all but what was computed, among it kernels, which stay where they are."""
+        made = type(self)
+        return {name: x for name, x in self.__dict__.items() if not isinstance(getattr(made, name, None), cached_property)}
 
 
 __all__ = ["cached_property"]

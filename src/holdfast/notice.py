@@ -314,7 +314,9 @@ def told(done: int, total: int, left: float | None = None) -> None:
 
 
 def _shown(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+    units = [(1, "s"), (60, "min"), (3600, "h"), (86400, "days"), (31_557_600, "years")]
+    size, unit = next((each for each in units if seconds < 100 * each[0]), units[-1])
+    return f"{seconds / size:.0f} {unit}"
 
 
 def _bar() -> _Bar | None:

@@ -32,6 +32,13 @@ def test_a_sound_arm_has_no_findings() -> None:
     require_inertia(arm())
 
 
+def test_an_arm_in_millimetres() -> None:
+    tool = np.eye(4)
+    tool[0, 3] = 900.0
+    (message,) = messages(arm().with_tool(tool))
+    assert message == "warning: arm 'bot': end to end it is 900 m long; lengths are in m: is its file in mm?"
+
+
 JOINTS: list[tuple[dict[str, Any], str]] = [
     ({"type": "continuous", "lower": -np.inf, "upper": np.inf}, "it is continuous; analyses over the whole joint range need"),
     ({"upper": np.inf}, "it lacks a limit; analyses over the whole joint range need lower and upper, in rad"),

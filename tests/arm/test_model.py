@@ -132,6 +132,8 @@ def test_configurations_are_checked() -> None:
         arm.forward_kinematics([0, 0])
     with pytest.raises(InputError, match="has 0 values per configuration"):
         arm.forward_kinematics(1.0)
+    with pytest.raises(InputError, match=r"q for 'planar-3r' has the shape \(2, 5, 3\); it must be \(3,\) or \(N, 3\)"):
+        arm.forward_kinematics(np.zeros((2, 5, 3)))
     with pytest.raises(InputError, match="q for 'planar-3r' is not numbers; it must be numbers, 3 per configuration"):
         arm.jacobian(["a", "b", "c"])
     assert arm.forward_kinematics(np.zeros((5, 3))).shape == (5, 4, 4)

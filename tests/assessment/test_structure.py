@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import oracles
 from holdfast import arms
@@ -60,6 +63,36 @@ def test_every_built_in_arm_against_ranks(name):
 def test_known_arms(name, task, fatal):
     """Specification, section 7: without the elbow the PA10-7C is singular everywhere; two more joints help."""
     assert structure(arms.load(name), task).fatal == fatal
+
+
+@pytest.mark.parametrize(
+    ("turned", "shifted"),
+    [(1.5708 - np.pi / 2, 0.0), (0.0, 4.4e-4)],
+    ids=["1.5708 for a quarter turn", "axes that miss by 0.44 mm, as in a common file of the iiwa"],
+)
+def test_axes_that_would_meet_but_for_the_digits_of_a_file(turned, shifted):
+    """What a lock of the elbow leaves is next to nothing, and is said, with what singular values tell of the reduced arm."""
+    arm = arms.load("iiwa14")
+    joints = list(arm.joints)
+    off = np.eye(4)
+    off[:3, :3] = Rotation.from_euler("x", turned).as_matrix()
+    off[0, 3] = shifted
+    joints[2] = replace(joints[2], origin=joints[2].origin @ off)
+    near = arm.__class__("near", tuple(joints), tool=arm.tool)
+    found = structure(near, "pose")
+    assert found.fatal == ()
+    ((elbow, left),) = found.nearly
+    assert elbow == 3
+    assert not found.survives
+    q = np.random.default_rng(20120514).uniform(-np.pi, np.pi, (256, 7))  # the configurations of the library
+    j = oracles.task_jacobian(near, q, "pose")
+    sizes = [np.linalg.svd(x, compute_uv=False).prod(axis=1) for x in (np.delete(j, 3, axis=2), j)]
+    assert left == pytest.approx((sizes[0] / sizes[1]).max(), rel=1e-5)
+    text = explain(near, found, structures(near))
+    assert "All but a single point of failure by structure: once lbr_iiwa_joint_4 (joint 4) locks" in text
+    assert text.endswith("A task that every single lock leaves possible: position.")
+    if turned:  # sets of joints, too
+        assert (3, 4, 5) in structure(near, "position").together
 
 
 def test_a_random_arm_has_none_until_it_loses_its_redundancy(rng):

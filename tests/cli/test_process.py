@@ -146,7 +146,19 @@ def test_a_full_disk_behind_stdout(arguments):
     assert "No space left" in done.stderr
 
 
-def test_output_in_a_plain_terminal():
-    """Names and units outside ASCII must not break a program in the C locale."""
-    done = run("describe", "panda", env={**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"})
-    assert done.returncode == 0, done.stderr
+def test_output_in_a_plain_terminal(tmp_path):
+    """Names and units outside ASCII must not break a program in the C locale, nor one that writes to a file on Windows."""
+    rows = "".join(f"  - {{name: {name}, a: 0.3, alpha: 0, lower: -2, upper: 2}}\n" for name in ("Schürze", "jοint", "手"))
+    (tmp_path / "arm.yaml").write_text(f"rows:\n{rows}", encoding="utf-8")
+    for encoding in ("ascii", "cp1252"):
+        plain = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": encoding}
+        done = run("describe", tmp_path / "arm.yaml", env=plain, encoding=encoding)
+        assert done.returncode == 0, done.stderr
+        assert "j\\u03bfint" in done.stdout  # a Greek omicron
+
+
+def test_more_than_there_is_memory_for():
+    done = run("optimise", "planar-3r", "--at", "0 1 1", "--maximise", "relative-manipulability", "--starts", 10**13)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "there is not enough memory" in done.stderr
+    assert "Traceback" not in done.stderr

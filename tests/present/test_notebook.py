@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
 from functools import cache
 from pathlib import Path
@@ -188,6 +189,15 @@ def test_every_class_that_a_notebook_shows_is_shown_here():
 @pytest.mark.parametrize("name", sorted(MADE))
 def test_a_card_has_a_table_and_the_main_figure_and_what_it_suggests_runs(name):
     check_card(MADE[name](), name not in {*INPUTS, *WITHOUT_FIGURE} - {"Arm", "Region"}, other=arm())
+
+
+@pytest.mark.parametrize("name", sorted(MADE))
+def test_what_was_computed_goes_to_another_process(name):
+    """As joblib and multiprocessing send it; after its card was drawn, with all that was compiled for it."""
+    result = MADE[name]()
+    again = pickle.loads(pickle.dumps(result))
+    assert type(again) is type(result)
+    assert again._repr_html_().split("<svg")[0] == result._repr_html_().split("<svg")[0]
 
 
 def test_a_figure_is_plotted_by_its_name():

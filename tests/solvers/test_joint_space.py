@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from holdfast import arms
-from holdfast.solvers import joint_space
+from holdfast.indices.susceptibility import torque
+from holdfast.solvers import joint_space, optimise
 
 
 @pytest.fixture(params=["none", "some", "all"])
@@ -33,3 +34,26 @@ def test_neighbours(arm, points, rows, rng):
         both = np.concatenate([a, b])
         found = {tuple(p) for p in joint_space.pairs(arm, both, apart).tolist()}
         assert found == joint_space.tree(arm, both).query_pairs(apart)
+
+
+def test_no_turn_more_than_is_needed(rng):
+    """A joint of a UR5 turns twice: of the values that are the same the one next to the middle, always within the limits."""
+    arm = arms.load("ur5-rail")
+    q = rng.uniform(arm.lower, arm.upper, (500, arm.n))
+    same = joint_space.unwound(arm, q)
+    np.testing.assert_allclose(arm.forward_kinematics(same), arm.forward_kinematics(q), atol=1e-12)
+    assert ((same >= arm.lower) & (same <= arm.upper)).all()
+    assert np.abs(same[:, ~arm.prismatic]).max() <= np.pi + 1e-12
+    assert np.abs(q[:, ~arm.prismatic]).max() > 1.5 * np.pi
+    some = np.array([3.5, -4.0, 2.0, 0.1, 0, 0, 40.0])
+    half = replace(arm, joints=tuple(replace(j, upper=np.inf) for j in arm.joints))  # nothing to be next to
+    assert joint_space.unwound(half, some).tobytes() == some.tobytes()
+
+
+def test_the_best_configuration_has_no_turn_more_than_is_needed():
+    arm = arms.load("ur5-rail")
+    q = np.array([0, 0, -1, 1.2, -0.5, 0.5, 0])
+    found = optimise(arm, arm.forward_kinematics(q), torque(arm), seed=0, starts=4)
+    assert np.abs(found.q[1:]).max() <= np.pi
+    assert arm.forward_kinematics(found.q) == pytest.approx(arm.forward_kinematics(q), abs=1e-6)
+    assert torque(arm)(found.q) == pytest.approx(found.value, rel=1e-12)

@@ -330,7 +330,9 @@ class Machine:
             InputError: Wrong number of joint values, or not numbers.
         """
         a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
-        if a.ndim not in (1, 2) or a.shape[-1] != self.n:
+        if a.ndim > 2:
+            raise InputError(f"q for '{self.name}' has the shape {a.shape}; it must be ({self.n},) or (N, {self.n})")
+        if a.ndim == 0 or a.shape[-1] != self.n:
             got = a.shape[-1] if a.ndim else 0
             raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
         return a

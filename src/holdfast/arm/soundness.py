@@ -12,6 +12,7 @@ from holdfast.errors import ArmError
 
 LARGEST_EFFORT = 20_000.0  # N m or N; beyond any arm's joint, so a placeholder
 WIDEST_RANGE = 4 * np.pi  # rad; two turns, beyond what cables allow
+LONGEST = 100.0  # m, end to end; beyond any arm, so a file in mm
 ROUNDING = 1e-9  # relative to the largest moment
 
 
@@ -21,7 +22,7 @@ class Finding:
 
     Attributes:
         severity: ``error``: no analysis that uses the number can be right; ``warning``: some analyses lack it.
-        subject: The joint or link, as ``joint 'elbow'``.
+        subject: The joint or link, as ``joint 'elbow'``, or the arm.
         message: One sentence: what is wrong and what would be right.
     """
 
@@ -37,6 +38,9 @@ def check(arm: Machine) -> list[Finding]:
     refused when a joint is made.
     """
     findings: list[Finding] = []
+    if arm.end_to_end > LONGEST:
+        message = f"end to end it is {arm.end_to_end:.4g} m long; lengths are in m: is its file in mm?"
+        findings.append(Finding("warning", f"arm '{arm.name}'", message))
     for joint, link in zip(arm.joints, arm.links, strict=True):
         findings += _joint(joint)
         findings += _link(link, joint)

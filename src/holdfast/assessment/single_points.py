@@ -14,13 +14,15 @@ from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.errors import TaskError
 from holdfast.grammar import TASKS
 from holdfast.indices.determinants import RelativeManipulability
+from holdfast.words import either, number
 
 Array = NDArray[np.float64]
 
 _DRAWS = 256
 _MOST, _NAMED = 3, 4  # joints of a set, and sets that are named
-_FLAT = 1e-13  # rho^2 of several joints is rounding noise
+_FLAT = 1e-10  # rho^2 of several joints is rounding noise, or that of 1.5708 for pi/2 in a file
 _ZERO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
+_LITTLE = 0.01  # rho that is left where axes meet but for half a millimetre, or for the digits of pi/2 in a file
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +36,8 @@ class Structure:
         never: The healthy arm itself is singular for the task in every configuration.
         together: Sets of two and three joints that do so when they lock at once and no fewer of them do; of those alone that
             leave as many joints as the task has rows.
+        nearly: Joints, indices from 0, whose lock leaves almost nothing, and the most of it that was found, above 0 and
+            at most 0.01: axes that would meet but for the rounding or the calibration in the arm's file.
     """
 
     task: str
@@ -41,11 +45,12 @@ class Structure:
     fatal: tuple[int, ...]
     never: bool
     together: tuple[tuple[int, ...], ...] = ()
+    nearly: tuple[tuple[int, float], ...] = ()
 
     @property
     def survives(self) -> bool:
-        """True if no single lock ends the task by structure."""
-        return self.redundancy > 0 and not self.fatal and not self.never
+        """True if no single lock ends the task by structure, or all but ends it."""
+        return self.redundancy > 0 and not self.fatal and not self.nearly and not self.never
 
 
 def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
@@ -63,10 +68,12 @@ def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
     q = generator.uniform(-np.pi, np.pi, (_DRAWS, arm.n))
     index = RelativeManipulability(arm, t)
     result = index.evaluate(q)
-    fatal = tuple(np.flatnonzero(result.by_failure.max(axis=0) < _ZERO).tolist())
+    most = result.by_failure.max(axis=0)
+    fatal = tuple(np.flatnonzero(most < _ZERO).tolist())
+    nearly = tuple((int(k), float(most[k])) for k in np.flatnonzero((most >= _ZERO) & (most <= _LITTLE)))
     never = bool((result.value == 0).all() and (result.by_failure == 0).all())
     together = () if never else _together(index.task_jacobian(q), fatal)
-    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never, together=together)
+    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never, together=together, nearly=nearly)
 
 
 def _together(jacobians: Array, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
@@ -104,13 +111,24 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
         return f"'{arm.name}' can never do task '{found.task}': it is singular in every configuration.{instead}"
     if found.redundancy <= 0:
         return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
-    if not found.fatal:
+    if not found.fatal and not found.nearly:
         sets = [" + ".join(arm.joint_names[k] for k in s) for s in found.together]
         more = f" and {len(sets) - _NAMED} more" if len(sets) > _NAMED else ""
         also = f" Sets whose locks together end it in every configuration: {', '.join(sets[:_NAMED])}{more}." if sets else ""
         return f"No single joint of '{arm.name}' is a point of failure by structure for task '{found.task}'.{also}"
-    names = ", ".join(f"{arm.joint_names[k]} (joint {k + 1})" for k in found.fatal)
-    return (
-        f"Single point of failure by structure: once {names} locks, '{arm.name}' is singular for task '{found.task}' "
-        f"in every configuration, however well it is chosen.{instead}"
-    )
+    parts = []
+    if found.fatal:
+        parts.append(
+            f"Single point of failure by structure: once {_either(arm, found.fatal)} locks, '{arm.name}' is singular for task "
+            f"'{found.task}' in every configuration, however well it is chosen."
+        )
+    for k, left in found.nearly:
+        parts.append(
+            f"All but a single point of failure by structure: once {_either(arm, [k])} locks, '{arm.name}' has at most "
+            f"{number(left)} of its manipulability for task '{found.task}' left, at each of {_DRAWS} random configurations."
+        )
+    return " ".join(parts) + instead
+
+
+def _either(arm: Arm, joints: Sequence[int]) -> str:
+    return either([f"{arm.joint_names[k]} (joint {k + 1})" for k in joints])

@@ -6,6 +6,7 @@ import os
 import shlex
 import sys
 from importlib import import_module
+from io import TextIOWrapper
 from shutil import get_terminal_size
 from textwrap import fill
 from typing import Annotated, Any
@@ -122,6 +123,9 @@ def _root(
 
 def main() -> None:
     """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # where an encoding has few characters, as that of files on Windows
+            stream.reconfigure(errors="backslashreplace")
     try:
         code = assembled(asked(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
     except HoldfastError as error:
@@ -135,6 +139,8 @@ def main() -> None:
         _fail(message + hint)
     except (KeyboardInterrupt, typer.Abort):
         _stopped()
+    except MemoryError as error:
+        _fail(f"there is not enough memory ({error}); ask for less at once")
     except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
         sys.exit(0)
     except OSError as error:

@@ -50,6 +50,9 @@ class RestSystem:
         unlocked = np.flatnonzero(self.mask)
         self._rows = np.flatnonzero(~np.isin(np.r_[unlocked, np.full(law.task.m + 2, -1)], self.idle))
 
+    def __reduce__(self) -> tuple[type[RestSystem], tuple[Law, Array, tuple[int, ...]]]:  # to another process
+        return RestSystem, (self.law, self.pose, self.joints)
+
     def starts(self, count: int, generator: np.random.Generator) -> Array:
         """Random unknowns (count, size), idle joints at 0."""
         z = self.equations.starts(count, generator)

@@ -55,6 +55,9 @@ class Motion:
         )
         self.made_of = law, method
 
+    def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
+        return Motion, self.made_of
+
     @cached_property
     @recalled
     def _at(self) -> Kernel:

@@ -72,6 +72,14 @@ def wrapped(arm: Arm, q: Array) -> Array:
     return np.where(turning(arm), np.arctan2(np.sin(q), np.cos(q)), q)
 
 
+def unwound(arm: Arm, q: Array) -> Array:
+    """Configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without limits."""
+    free = turning(arm)
+    middle = (np.where(free, 0.0, arm.lower) + np.where(free, 0.0, arm.upper)) / 2
+    turns = np.rint((q - middle) / (2 * np.pi))
+    return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, turns)
+
+
 def folded(arm: Arm, q: Array) -> Array:
     """Configurations (N, n) with joints that turn without limits in 0 to 2 pi, 2 pi left out."""
     x = q % (2 * np.pi)

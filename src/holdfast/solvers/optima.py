@@ -21,6 +21,7 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.notice import Count, says
 from holdfast.result import Result
 from holdfast.solvers.anywhere import STARTS, best_of_all
+from holdfast.solvers.joint_space import unwound
 from holdfast.solvers.optimum import Optimum, default_starts, objective_ascent
 from holdfast.status import Status
 from holdfast.words import counted, number
@@ -234,6 +235,7 @@ def optimise(
             parts = list(pool().map(work, range(len(blocks))))
     single = np.ndim(asked) == 2
     arrays = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Optimum)}
+    arrays["q"] = unwound(arm, arrays["q"])
     return Optima(
         **{name: value[0] if single else value for name, value in arrays.items()},
         objective=objective,

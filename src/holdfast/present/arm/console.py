@@ -43,6 +43,7 @@ def to_dict(arm: Arm) -> dict[str, Any]:
                 "task": s.task,
                 "redundancy": s.redundancy,
                 "single_points_of_failure": [arm.joint_names[k] for k in s.fatal],
+                "at_most_left": {arm.joint_names[k]: left for k, left in s.nearly},
                 "end_it_together": [[arm.joint_names[k] for k in sets] for sets in s.together],
                 "always_singular": s.never,
             }

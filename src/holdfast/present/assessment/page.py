@@ -61,7 +61,7 @@ def _verdict(f: Facts) -> Callout:
     own, everything = f.structures
     text = explain(f.a.arm, own, everything)
     fatal = not own.survives
-    title = "A single locked joint ends this task everywhere" if fatal else ""
+    title = f"A single locked joint {'' if own.fatal else 'all but '}ends this task everywhere" if fatal else ""
     if own.never:
         title = "The task is impossible for this arm"
     return Callout(text, "bad" if fatal else "good", title)
