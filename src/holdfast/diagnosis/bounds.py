@@ -239,7 +239,7 @@ def calibrate(
         viscous=np.array(wet, dtype=np.float64),
         scales=scales,
         factor=float(factor),
-        speed=np.max([np.abs(np.diff(log.q_ref, axis=0) * rate).max(axis=0) for log in logs], axis=0),
+        speed=np.max([np.nanmax(np.abs(np.diff(log.q_ref, axis=0)), axis=0) * rate for log in logs], axis=0),
         hours=hours,
         logs=len(logs),
         alarms=alarms,

@@ -114,11 +114,10 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
         body: The arm with the masses that it has, if they are known better.
 
     Raises:
-        InputError: A record of another number of joints.
+        InputError: A record of another arm, or in other units.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
     """
-    if log.n != arm.n:
-        raise InputError(f"the record has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
+    log.require(arm)
     dt, tracking = 1 / log.rate, log.q_ref - log.q
     q = bridged(log.q)
     levels, r, gravity = ["tracking"], np.zeros(q.shape), np.zeros(q.shape)

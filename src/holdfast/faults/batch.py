@@ -79,14 +79,5 @@ def batch_of(joints: tuple[str, ...], episodes: Sequence[FaultEvents], *, seed: 
             for name, value in event.parameters.items():
                 if not isinstance(value, str):
                     parameter[e, j, known.index(name)] = value
-    return FaultBatch(
-        joints=joints,
-        seed=seed,
-        first=first,
-        episodes=tuple(episodes),
-        kind=kind,
-        onset=onset,
-        end=end,
-        parameter=parameter,
-        left_out=left_out,
-    )
+    arrays = {"kind": kind, "onset": onset, "end": end, "parameter": parameter}
+    return FaultBatch(joints=joints, seed=seed, first=first, episodes=tuple(episodes), left_out=left_out, **arrays)

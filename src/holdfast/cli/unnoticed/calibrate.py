@@ -9,7 +9,7 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.options import BaseOption, HoldOption, JsonOption, TipOption, read_arm
-from holdfast.cli.unnoticed.diagnose import ArmOption, LatencyOption
+from holdfast.cli.unnoticed.diagnose import ArmOption, ColumnsOption, LatencyOption
 from holdfast.present.results import printed
 
 
@@ -29,6 +29,7 @@ def command(
         typer.Option("--viscous", help="Viscous friction, N m s/rad (N s/m). Default: the arm's own.", show_default=False),
     ] = None,
     fit: Annotated[bool, typer.Option("--fit", help="Fit masses and friction to the records first.")] = False,
+    columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -40,6 +41,6 @@ def command(
     Example: holdfast calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json
     """
     model = read_arm(arm, base, tip, hold)
-    records = [hf.faults.Log.load(log, latency=latency) for log in logs]
+    records = [hf.faults.Log.load(log, columns=columns, latency=latency) for log in logs]
     bounds = hf.diagnosis.calibrate(model, records, factor=factor, coulomb=coulomb, viscous=viscous, fit=fit)
     printed(bounds, json_, [bounds.to_json(out)])
