@@ -91,7 +91,7 @@ class FaultInjector:
             joints = [
                 model.joint(k).name for k in _driven(mujoco, model) if model.jnt_type[k] in simple and model.joint(k).name
             ]
-        self.joints = names_of(joints)
+        self.joints, self._arm = names_of(joints), {one.name: one for one in getattr(joints, "joints", ())}
         self._ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in self.joints]
         for name, k in zip(self.joints, self._ids, strict=True):
             if k < 0 or model.jnt_type[k] not in simple:
@@ -229,8 +229,10 @@ class FaultInjector:
         if kind == "reduced_speed" or "ceiling" in event.parameters:
             self._motors.effort(j, event)
         at = event.parameters.get("at", "here")
-        if kind == "locked" and not isinstance(at, str) and self.model.jnt_limited[k]:
-            low, high = self.model.jnt_range[k]
+        if kind == "locked" and not isinstance(at, str):
+            low, high = self.model.jnt_range[k] if self.model.jnt_limited[k] else (-math.inf, math.inf)
+            if event.joint in self._arm:  # whose model may have no stops
+                low, high = self._arm[event.joint].lower, self._arm[event.joint].upper
             if not low <= at <= high:
                 raise InputError(f"'{event.joint}' locks at {at:g}, beyond its limits {low:g} and {high:g}")
 
