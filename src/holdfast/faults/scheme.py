@@ -152,7 +152,7 @@ def load(file: str | Path) -> Faults:
         InputError: Unreadable, or something that is unknown, missing or wrong; the message names it.
     """
     try:
-        model = _File.model_validate(content(Path(file), "holdfast.faults.load", "faults"))
+        model: Any = _File.model_validate(content(Path(file), "holdfast.faults.load", "faults"))
         entries = []
         for k, entry in enumerate(model.faults):
             given = {name: value for name, value in entry if name in entry.model_fields_set}
