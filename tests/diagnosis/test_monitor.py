@@ -223,7 +223,7 @@ def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):
     hasty[800::90, 6] += 2e-3  # 2 rad/s for a sample, every 90 ms
     assert not monitor.run(dataclasses.replace(log, q_ref=hasty)).verdict.alarm
     with pytest.raises(InputError, match="neither torques nor slow motion"):
-        hf.diagnosis.calibrate(panda, [dataclasses.replace(log, q_ref=log.q_ref + 1.0 * log.t[:, None])])
+        hf.diagnosis.calibrate(panda, [dataclasses.replace(log, q_ref=log.q_ref + 0.03 * np.sin(60 * log.t[:, None]))])
 
 
 def test_a_motion_is_looked_at_beforehand(panda, bounds, records):
@@ -303,24 +303,8 @@ def test_a_late_pose_from_parquet_is_in_time(panda, bounds, healthy, tmp_path):
     assert hf.diagnosis.diagnose(panda, Log.load(tmp_path / "log.parquet"), bounds).verdict.kind == "sensor"
     with pytest.raises(InputError, match="latency is 3 s; it must be 0 or more"):
         Log.load(tmp_path / "log.parquet", latency=3.0)
-    with pytest.raises(InputError, match="it is no Parquet file of numbers"):
+    with pytest.raises(InputError, match="it is no Parquet file"):
         Log.load((tmp_path / "log.csv").rename(tmp_path / "x.parquet") if log.save(tmp_path / "log.csv") else "")
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("t,q_1\n0,1\n1,1\n", "it has no q_ref; a log has at least"),
-        ("t,q_ref_1,q_1\n0,1\n", "its rows are not 3 numbers each"),
-        ("t,q_ref_1,q_2\n0,1,1\n1,1,1\n", "its columns q_1, q_2, ... have a gap"),
-        ("t,q_ref_1,q_1\n0,1,1\n0,1,1\n", "t does not increase at row 1"),
-    ],
-)
-def test_a_record_that_is_wrong(text, words, tmp_path):
-    path = tmp_path / "log.csv"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=words):
-        Log.load(path)
 
 
 def test_what_does_not_go_together_is_refused(panda, bounds, healthy):

@@ -61,6 +61,23 @@ def test_a_sensor_fault_changes_only_its_entries(reacher):
     assert seen - true == pytest.approx([0, 0.25, 0, 0, 0, 0], abs=1e-12)
 
 
+def test_any_joint_is_one_that_is_driven_and_a_sensor_is_one_that_is_seen(reacher):
+    """Reacher's target slides are no joints of the arm, its observation shows sines; a walker's place in space is no joint."""
+    assert FaultWrapper(reacher, []).injector.joints == ("joint0", "joint1")
+    hopper = gymnasium.make("Hopper-v5")
+    assert FaultWrapper(hopper, []).injector.joints == ("thigh_joint", "leg_joint", "foot_joint")
+    hopper.close()
+    event = FaultEvent("sensor_bias", "joint1", 0.0, parameters={"bias": 0.25})
+    with pytest.raises(InputError, match="no entry of the observation is the value of 'joint1'"):
+        FaultWrapper(reacher, [event]).reset(seed=1)
+    FaultWrapper(reacher, [event], observes={"joint1": ()}).reset(seed=1)
+    flat = gymnasium.wrappers.TransformObservation(reacher, lambda seen: 2 * seen, None)
+    with pytest.raises(InputError, match="another wrapper changes the observation"):
+        FaultWrapper(flat, [event]).reset(seed=1)
+    with pytest.raises(InputError, match=r"the faults are 'faults.yaml'; read a file of them by"):
+        FaultWrapper(reacher, "faults.yaml")
+
+
 def test_a_dropout_holds_the_action(reacher):
     env = FaultWrapper(reacher, [FaultEvent("command_dropout", "joint0", 0.02)])
     env.reset(seed=1)

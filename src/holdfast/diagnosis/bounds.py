@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.diagnosis.fitting import fitted, scaled
-from holdfast.diagnosis.gaps import evened
 from holdfast.diagnosis.signals import signals_of
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
@@ -204,7 +203,6 @@ def calibrate(
     for log in logs:
         if abs(log.rate / rate - 1) > OFF_RATE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
-    logs = [evened(log) for log in logs]
     scales = np.ones(arm.n)
     if fit:
         scales, dry, wet = fitted(arm, logs, dry, wet)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,22 +30,6 @@ class Stretch:
 def cycles(seconds: float, dt: float) -> int:
     """So many cycles, at least one."""
     return max(1, round(seconds / dt))
-
-
-def evened(log: Log) -> Log:
-    """The record with rows of NaN where its time jumps: as many as are missing, or enough for a long gap."""
-    most = cycles(STALE, 1 / log.rate) + 2
-    steps = np.clip(np.rint(np.diff(log.t) * log.rate), 1, most).astype(np.int64)
-    if (steps == 1).all():
-        return log
-    rows = np.concatenate([[0], np.cumsum(steps)])
-    parts = {"t": np.interp(np.arange(rows[-1] + 1), rows, log.t)}
-    for name in ("q_ref", "q", "tau", "x", "quat"):
-        values = getattr(log, name)
-        if values is not None:
-            parts[name] = np.full((len(parts["t"]), values.shape[1]), np.nan)
-            parts[name][rows] = values
-    return replace(log, **parts)
 
 
 def seen(log: Log) -> NDArray[np.bool_]:

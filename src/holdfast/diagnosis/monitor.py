@@ -11,7 +11,7 @@ from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.diagnosis.answer import Diagnosis
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, UNSURE, Decision
-from holdfast.diagnosis.gaps import STALE, cycles, evened
+from holdfast.diagnosis.gaps import STALE, cycles
 from holdfast.diagnosis.kinds import Verdict
 from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, friction_torque, level, momentum_kernel
 from holdfast.diagnosis.sensors import Sensors
@@ -70,7 +70,6 @@ class Monitor:
         """
         bounds = self.bounds
         bounds.require(self.arm, log.rate)
-        log = evened(log)
         body = bounds.body(self.arm)
         signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous, body=body)
         scaled = signals.scaled(bounds.torque, bounds.tracking, bounds.position, bounds.angle)

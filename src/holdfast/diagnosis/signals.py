@@ -12,7 +12,6 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors, rotations_of_quaternions
 from holdfast.diagnosis.gaps import STALE, seen, stretches
 from holdfast.diagnosis.observer import excess, filtered_rates, level, momentum_kernel, residuals
-from holdfast.errors import InputError
 from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
@@ -121,11 +120,10 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
         body: The arm with the masses that it has, if they are known better.
 
     Raises:
-        InputError: A record of another number of joints, or without a row that has all of its numbers.
+        InputError: A record of another arm, in other units, or without a row that has all of its numbers.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
     """
-    if log.n != arm.n:
-        raise InputError(f"the record has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
+    log.require(arm)
     dt, told = 1 / log.rate, seen(log)
     levels, tracking = ["tracking"], np.where(told[:, None], log.q_ref - log.q, np.nan)
     r, v, gravity, asked = (np.where(told[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4))

@@ -18,6 +18,7 @@ class Actuators:
 
     Attributes:
         all: Numbers of all of them.
+        driven: Numbers of the joints of the model that have one.
     """
 
     def __init__(self, mujoco: ModuleType, model: Any, ids: Sequence[int]) -> None:
@@ -25,7 +26,9 @@ class Actuators:
         kinds, joints = np.asarray(model.actuator_trntype), np.asarray(model.actuator_trnid).reshape(-1, 2)[:, 0]
         self._fixed = int(mujoco.mjtGain.mjGAIN_FIXED), int(mujoco.mjtBias.mjBIAS_NONE)
         self._model, self._ids = model, ids
-        self._of = [np.flatnonzero(np.isin(kinds, on_joint) & (joints == k)) for k in ids]
+        there = np.isin(kinds, on_joint)
+        self.driven = joints[there].tolist()
+        self._of = [np.flatnonzero(there & (joints == k)) for k in ids]
         self.all = np.concatenate([*self._of, np.zeros(0, dtype=np.int64)]).astype(np.int64)
         self.note()
 

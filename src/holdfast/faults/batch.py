@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,14 +80,5 @@ def batch_of(joints: tuple[str, ...], episodes: Sequence[FaultEvents], *, seed: 
             for name, value in event.parameters.items():
                 if not isinstance(value, str):
                     parameter[e, j, known.index(name)] = value
-    return FaultBatch(
-        joints=joints,
-        seed=seed,
-        first=first,
-        episodes=tuple(episodes),
-        kind=kind,
-        onset=onset,
-        end=end,
-        parameter=parameter,
-        left_out=left_out,
-    )
+    arrays: dict[str, Any] = {"kind": kind, "onset": onset, "end": end, "parameter": parameter}
+    return FaultBatch(joints=joints, seed=seed, first=first, episodes=tuple(episodes), left_out=left_out, **arrays)

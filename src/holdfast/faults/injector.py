@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -59,7 +60,8 @@ class FaultInjector:
     Args:
         model: ``mujoco.MjModel``; its joints are hinges or slides.
         data: ``mujoco.MjData``.
-        joints: An arm, names of joints in the model, or None: all hinges and slides that have a name.
+        joints: An arm, names of joints in the model, or None: hinges and slides that have a name and an actuator, or hang on a
+            machine that has some; so neither a goal nor the base of what walks. All, where there is no actuator on a joint.
         faults: A fault model, or the events of one episode.
         horizon: s, the end of an episode, see :meth:`holdfast.faults.Faults.draw`.
 
@@ -86,9 +88,10 @@ class FaultInjector:
         self.model, self.data, self.faults, self.horizon = model, data, faults, horizon
         simple = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
         if joints is None:
-            here = [model.joint(k).name for k in range(model.njnt) if model.jnt_type[k] in simple]
-            joints = [name for name in here if name]
-        self.joints = names_of(joints)
+            joints = [
+                model.joint(k).name for k in _driven(mujoco, model) if model.jnt_type[k] in simple and model.joint(k).name
+            ]
+        self.joints, self._arm = names_of(joints), {one.name: one for one in getattr(joints, "joints", ())}
         self._ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in self.joints]
         for name, k in zip(self.joints, self._ids, strict=True):
             if k < 0 or model.jnt_type[k] not in simple:
@@ -112,6 +115,8 @@ class FaultInjector:
         self.restore()
         self._save()
         given = self.faults
+        if isinstance(given, (str, Path)):
+            raise InputError(f"the faults are '{given}'; read a file of them by holdfast.faults.load")
         if isinstance(given, Faults):
             self.events = given.draw(self.joints, episode=episode, horizon=self.horizon)
         else:
@@ -224,8 +229,10 @@ class FaultInjector:
         if kind == "reduced_speed" or "ceiling" in event.parameters:
             self._motors.effort(j, event)
         at = event.parameters.get("at", "here")
-        if kind == "locked" and not isinstance(at, str) and self.model.jnt_limited[k]:
-            low, high = self.model.jnt_range[k]
+        if kind == "locked" and not isinstance(at, str):
+            low, high = self.model.jnt_range[k] if self.model.jnt_limited[k] else (-math.inf, math.inf)
+            if event.joint in self._arm:  # whose model may have no stops
+                low, high = self._arm[event.joint].lower, self._arm[event.joint].upper
             if not low <= at <= high:
                 raise InputError(f"'{event.joint}' locks at {at:g}, beyond its limits {low:g} and {high:g}")
 
@@ -331,3 +338,11 @@ class FaultInjector:
         answers = np.zeros_like(units)
         self._mujoco.mj_solveM(self.model, self.data, answers, units)
         velocity -= answers.T @ np.linalg.solve(answers[:, dofs].T, velocity[dofs])
+
+
+def _driven(mujoco: Any, model: Any) -> list[int]:
+    """Joints with an actuator, and those of the same tree of bodies but for its root's; all, where none has one."""
+    own = set(Actuators(mujoco, model, []).driven)
+    root = model.body_rootid[model.jnt_bodyid]
+    trees = {root[k] for k in own}
+    return [k for k in range(model.njnt) if not own or k in own or (root[k] in trees and model.jnt_bodyid[k] != root[k])]

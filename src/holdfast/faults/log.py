@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import io
-import re
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.model import Arm
 from holdfast.errors import InputError
+from holdfast.faults import columns as tables
 from holdfast.files import reading
 from holdfast.files.output import guarded, write_table
 
 Array = NDArray[np.float64]
 _WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one for each joint
 _NEEDED = ("t", "q_ref", "q")
-_COLUMN = re.compile(r"(q_ref|q|tau|x|quat)_(\d+)")
+_CLOCK = 1e6  # s: later times are those of a clock
+_LEAST = 40.0  # Hz: the observer's own rate, below which it says nothing
+_BEYOND, _FASTER = 0.5, 2.0  # rad or m beyond a limit, and of a speed limit: such references are in other units
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Log:
-    """T samples of n joints.
+    """T samples of n joints, evenly spaced: where times leap, rows of NaN stand for the samples that are missing.
 
     Attributes:
         t: (T,) s, increasing.
@@ -36,7 +37,7 @@ class Log:
         quat: (T, 4) measured orientation of the tool, a quaternion x, y, z, w; with ``x``.
 
     Raises:
-        InputError: Shapes that do not fit, or time that does not increase.
+        InputError: Shapes that do not fit, time that does not increase, or more samples missing than there are.
     """
 
     t: Array
@@ -65,6 +66,20 @@ class Log:
             object.__setattr__(self, name, array)
         if (self.x is None) != (self.quat is None):
             raise InputError("only one of x and quat is there; give the tool's position and its orientation, or neither")
+        rows = np.r_[0, np.cumsum(np.maximum(np.rint(np.diff(t) * self.rate), 1))].astype(np.int64)
+        count = int(rows[-1]) + 1
+        if count > 2 * len(t):
+            raise InputError(
+                f"more samples are missing than there are: {len(t)} in {self.duration:.4g} s, at {self.rate:.4g} a second; "
+                "give its parts as records of their own"
+            )
+        if count > len(t):
+            object.__setattr__(self, "t", np.interp(np.arange(count), rows, t))
+            for name in list(_WIDTHS)[1:]:
+                if (value := getattr(self, name)) is not None:
+                    whole = np.full((count, value.shape[1]), np.nan)
+                    whole[rows] = value
+                    object.__setattr__(self, name, whole)
 
     @property
     def n(self) -> int:
@@ -73,20 +88,53 @@ class Log:
 
     @property
     def rate(self) -> float:
-        """Samples per second, of the median step."""
-        return float(1 / np.median(np.diff(self.t)))
+        """Samples per second, without gaps."""
+        steps = np.diff(self.t)
+        return float(1 / steps[steps <= 1.5 * np.median(steps)].mean())
 
     @property
     def duration(self) -> float:
         """From the first sample to the last, s."""
         return float(self.t[-1] - self.t[0])
 
+    def require(self, arm: Arm) -> None:
+        """Refuse a record that cannot be of an arm, in these units.
+
+        Raises:
+            InputError: Another number of joints, fewer than 40 samples a second, or references far beyond what joints can.
+        """
+        if self.n != arm.n:
+            raise InputError(f"the record has {self.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
+        if self.rate < _LEAST:
+            raise InputError(f"the record has {self.rate:.4g} samples a second; it must have {_LEAST:g} or more, with t in s")
+        for joint, q in zip(arm.joints, self.q_ref.T, strict=True):
+            low, high = np.fmin.reduce(q), np.fmax.reduce(q)
+            # A reference may leap, but not all the time.
+            speed = float(np.quantile(np.nan_to_num(np.abs(np.diff(q))), 0.9)) * self.rate
+            if low < joint.lower - _BEYOND or high > joint.upper + _BEYOND or speed > _FASTER * joint.velocity:
+                unit = joint.unit
+                raise InputError(
+                    f"q_ref of '{joint.name}' is from {low:.4g} to {high:.4g} {unit} at {speed:.3g} {unit}/s, and the joint's "
+                    f"limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a record "
+                    f"in {unit} and s, its joints in the arm's order"
+                )
+
     @classmethod
-    def load(cls, file: str | Path, *, latency: float = 0.0) -> Log:
+    def load(cls, file: str | Path, *, columns: str | Path | None = None, latency: float = 0.0) -> Log:
         """From ``.npz`` with arrays of these names, or CSV or Parquet with columns ``t, q_ref_1, ..., q_1, ..., x_1, ...``.
 
+        Columns of other names or units are described in a YAML file; what it leaves out is as above.
+
+        .. code-block:: yaml
+
+            t: {column: "Time [ms]", unit: ms}  # or s, us, ns
+            q: {column: "A* actual", unit: deg} # * is the joint's number, from 0 or 1; or rad, m, mm
+            q_ref: [base_set, arm_set, wrist_set] # or their names, from base to tool
+            tau: "A* torque"
+
         Args:
-            file: By its name.
+            file: By its name. Times beyond 1e6 s are those of a clock: they are counted from the first.
+            columns: That file.
             latency: s, by which the tool's pose is in the file after it was taken: its samples go to the rows of their times.
 
         Raises:
@@ -94,12 +142,18 @@ class Log:
         """
         path = Path(file)
         try:
-            readers = {".csv": _from_csv, ".parquet": _from_parquet}
-            arrays = readers.get(path.suffix.lower(), _from_npz)(path)
+            if path.suffix.lower() in (".csv", ".parquet"):
+                arrays = dict(tables.read(path, columns))
+            else:
+                if columns is not None:
+                    raise InputError("a file of columns is for .csv and .parquet")
+                arrays = _from_npz(path)
             missing = [name for name in _NEEDED if name not in arrays]
             if missing:
                 raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
-            return cls(**{name: arrays[name] for name in _WIDTHS if name in arrays})._earlier(latency)
+            if arrays["t"][:1] > _CLOCK:
+                arrays["t"] = arrays["t"] - arrays["t"][0]
+            return cls(**arrays)._earlier(latency)
         except InputError as error:
             raise InputError(f"log '{path}': {error}") from error
 
@@ -132,7 +186,7 @@ class Log:
             rows = np.column_stack(list(given.values()))
             if path.suffix.lower() == ".csv":
                 return write_table(path, "log", header, rows)
-            pyarrow, parquet = _arrow()
+            pyarrow, parquet = tables.arrow()
             with guarded(path, "log", "choose another path"):
                 parquet.write_table(pyarrow.table(dict(zip(header, rows.T, strict=True))), path)
             return path
@@ -142,7 +196,7 @@ class Log:
         return path
 
 
-def _from_npz(path: Path) -> Mapping[str, Any]:
+def _from_npz(path: Path) -> dict[str, Array]:
     with reading.guarded(advice="give an .npz or .csv file"):
         content = reading.raw(path)
     try:
@@ -150,57 +204,3 @@ def _from_npz(path: Path) -> Mapping[str, Any]:
             return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _WIDTHS}
     except Exception as error:  # zipfile, zlib and NumPy have many ways of saying no
         raise InputError("it is no .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error
-
-
-def _from_csv(path: Path) -> Mapping[str, Any]:
-    with reading.guarded(advice="give an .npz or .csv file"):
-        lines = reading.raw(path).decode("utf-8", "replace").splitlines()
-    header = [name.strip() for name in (lines[0] if lines else "").split(",")]
-    try:
-        rows = np.array([[float(x or "nan") for x in line.split(",")] for line in lines[1:] if line.strip()])
-        columns = dict(zip(header, rows.T, strict=True))
-    except ValueError as error:
-        raise InputError(f"its rows are not {len(header)} numbers each, as its first line names them") from error
-    return _arranged(columns)
-
-
-def _arrow() -> tuple[Any, Any]:
-    try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError as error:
-        raise InputError("Parquet needs pyarrow; install holdfast[parquet], or give an .npz or .csv file") from error
-    return pyarrow, parquet
-
-
-def _from_parquet(path: Path) -> Mapping[str, Any]:
-    _, parquet = _arrow()
-    with reading.guarded(advice="give an .npz, .csv or .parquet file"):
-        content = reading.raw(path)
-    try:
-        table = parquet.read_table(io.BytesIO(content))
-        numbers = {name: np.asarray(table[name], dtype=np.float64) for name in table.column_names if _is_ours(name)}
-    except Exception as error:  # pyarrow has errors of its own
-        raise InputError("it is no Parquet file of numbers; give one with columns t, q_ref_1, ..., q_1, ...") from error
-    return _arranged(numbers)
-
-
-def _is_ours(name: str) -> bool:
-    return name == "t" or _COLUMN.fullmatch(name) is not None
-
-
-def _arranged(columns: Mapping[str, Array]) -> Mapping[str, Any]:
-    """Columns ``q_1, q_2, ...`` as arrays."""
-    found: dict[str, dict[int, Array]] = {}
-    for name, values in columns.items():
-        if name == "t":
-            continue
-        match = _COLUMN.fullmatch(name)
-        if match:
-            found.setdefault(match[1], {})[int(match[2])] = values
-    arrays: dict[str, Any] = {"t": columns["t"]} if "t" in columns else {}
-    for name, parts in found.items():
-        if sorted(parts) != list(range(1, len(parts) + 1)):
-            raise InputError(f"its columns {name}_1, {name}_2, ... have a gap")
-        arrays[name] = np.column_stack([parts[k] for k in sorted(parts)])
-    return arrays

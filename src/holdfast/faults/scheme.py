@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import yaml
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, create_model, model_validator
 
 from holdfast.arguments import checked_class
 from holdfast.errors import InputError
 from holdfast.faults.batch import FaultBatch, batch_of
 from holdfast.faults.draw import drawn
-from holdfast.faults.entry import Fault
+from holdfast.faults.entry import PARAMETERS, Fault
 from holdfast.faults.events import FaultEvents
 from holdfast.files.output import replaced
 from holdfast.files.yaml import Number, Strict, content, sentence
@@ -30,7 +30,7 @@ class Jointed(Protocol):
         ...
 
 
-class _Entry(Strict):
+class _Common(Strict):
     kind: str
     joints: list[str] | str | None = None
     weights: list[Number] | None = None
@@ -41,18 +41,6 @@ class _Entry(Strict):
     together: int = 1
     on: Number | None = None
     off: Number | None = None
-    at: Any = None
-    gain: Any = None
-    ceiling: Any = None
-    coulomb: Any = None
-    viscous: Any = None
-    travel: Any = None
-    lower: Any = None
-    upper: Any = None
-    velocity: Any = None
-    bias: Any = None
-    rate: Any = None
-    deviation: Any = None
 
     @model_validator(mode="before")
     @classmethod
@@ -62,9 +50,13 @@ class _Entry(Strict):
         return {names.get(key, key): value for key, value in data.items()} if isinstance(data, dict) else data
 
 
+_NUMBERS: Any = dict.fromkeys((name for sets in PARAMETERS.values() for names in sets for name in names), (Any, None))
+_Entry: type[_Common] = create_model("_Entry", __base__=_Common, **_NUMBERS)
+
+
 class _File(Strict):
     seed: int = Field(default=0, ge=0)
-    faults: list[_Entry] = Field(min_length=1)
+    faults: list[_Entry] = Field(min_length=1)  # type: ignore[valid-type]
 
 
 @checked_class
@@ -160,7 +152,7 @@ def load(file: str | Path) -> Faults:
         InputError: Unreadable, or something that is unknown, missing or wrong; the message names it.
     """
     try:
-        model = _File.model_validate(content(Path(file), "holdfast.faults.load", "faults"))
+        model: Any = _File.model_validate(content(Path(file), "holdfast.faults.load", "faults"))
         entries = []
         for k, entry in enumerate(model.faults):
             given = {name: value for name, value in entry if name in entry.model_fields_set}
@@ -171,7 +163,7 @@ def load(file: str | Path) -> Faults:
                 raise InputError(f"faults[{k}]: {error}") from error
         return Faults(entries, model.seed)
     except ValidationError as error:
-        raise InputError(f"faults file '{file}': {sentence(error, _File)}") from error
+        raise InputError(f"faults file '{file}': {sentence(error, _File, ('str', 'list[str]'))}") from error
     except InputError as error:
         raise InputError(f"faults file '{file}': {error}") from error
 

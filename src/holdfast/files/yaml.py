@@ -142,6 +142,8 @@ def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[st
             return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(model, where))}"
         case "missing":
             return f"{place}: it is missing; it must be given"
+        case "model_type":
+            return f"{place}: {given} is wrong; give the keys {', '.join(_keys(model, (*where, '')))}"
         case "literal_error":
             return f"{place}: {given} is not known; use {first['ctx']['expected']}"
         case "value_error":

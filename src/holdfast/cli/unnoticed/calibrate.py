@@ -10,7 +10,7 @@ import typer
 import holdfast as hf
 from holdfast.cli.groups import Chain
 from holdfast.cli.options import JsonOption
-from holdfast.cli.unnoticed.diagnose import ArmOption, LatencyOption
+from holdfast.cli.unnoticed.diagnose import ArmOption, ColumnsOption, LatencyOption
 from holdfast.present.results import printed
 
 
@@ -22,6 +22,7 @@ def command(
     coulomb: Annotated[float, "Dry friction of each joint, N m (N), if known."] = 0.0,
     viscous: Annotated[float | None, "Viscous friction, N m s/rad (N s/m). Default: the arm's own."] = None,
     fit: Annotated[bool, "Fit masses and friction to the records first."] = False,
+    columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: Chain = Chain(),
     json_: JsonOption = False,
@@ -31,6 +32,6 @@ def command(
     Example: holdfast calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json
     """
     model = chain.arm(arm)
-    records = [hf.faults.Log.load(log, latency=latency) for log in logs]
+    records = [hf.faults.Log.load(log, columns=columns, latency=latency) for log in logs]
     bounds = hf.diagnosis.calibrate(model, records, factor=factor, coulomb=coulomb, viscous=viscous, fit=fit)
     printed(bounds, json_, [bounds.to_json(out)])

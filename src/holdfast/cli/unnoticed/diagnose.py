@@ -12,6 +12,7 @@ from holdfast.cli.groups import Chain, Output
 from holdfast.cli.options import NOT_MET
 
 ArmOption = Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."]
+ColumnsOption = Annotated[Path | None, "Names and units of the columns (YAML), where they are not a log's."]
 LatencyOption = Annotated[float, "By which the tool's pose is recorded late, s."]
 
 
@@ -19,6 +20,7 @@ def command(
     log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).")],
     arm: ArmOption,
     bounds: Annotated[Path, "File that calibrate wrote."],
+    columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: Chain = Chain(),
     output: Output = Output(),
@@ -30,7 +32,7 @@ def command(
     Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
     """
     model = chain.arm(arm)
-    found = hf.diagnosis.diagnose(model, hf.faults.Log.load(log, latency=latency), hf.diagnosis.load(bounds))
+    found = hf.diagnosis.diagnose(model, hf.faults.Log.load(log, columns=columns, latency=latency), hf.diagnosis.load(bounds))
     output.printed(found)
     if found.verdict.alarm:
         raise typer.Exit(NOT_MET)

@@ -119,16 +119,9 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         self._episode, self._ids = np.arange(rows) - rows, np.full(rows, FaultEvents().id)
         self._over, self._begun = self._put(np.ones(rows)), False
         # What stays on a GPU from step to step.
-        self._table, self._state, self._silence, *self._setting = map(
-            self._put,
-            [
-                self._episodes,
-                np.zeros((rows, len(STATE) * n + 1)),
-                np.zeros(n),
-                self._limits,
-                np.array([self.period, self.horizon, *self.tolerance]),
-            ],
-        )
+        state, setting = np.zeros((rows, len(STATE) * n + 1)), np.array([self.period, self.horizon, *self.tolerance])
+        stays = map(self._put, [self._episodes, state, np.zeros(n), self._limits, setting])
+        self._table, self._state, self._silence, *self._setting = stays
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """All arms anew; with a seed also the episodes of the faults from the first one on."""
@@ -225,11 +218,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
     def _told(self) -> dict[str, Any]:
         time = self._time[:, None]
         active = (self._code >= 0) & (self._onset <= time + 1e-9) & (time < self._end - 1e-9)
-        self.fault = {
-            "kind": self._code.astype(np.int64),
-            "active": active,
-            "id": self._ids.copy(),
-        }
+        self.fault = {"kind": self._code.astype(np.int64), "active": active, "id": self._ids.copy()}
         return {"fault": self.fault, "_fault": np.ones(self.num_envs, dtype=bool)} if self._reveal else {}
 
 

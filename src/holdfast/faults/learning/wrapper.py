@@ -26,7 +26,7 @@ except ImportError:  # said when one is made, so that the rest can be imported
     Wrapper = object
 
 Array = NDArray[np.float64]
-_NUDGE = 1e-3  # rad or m: what moves by exactly so much is the joint's value
+_NUDGE = 0.5  # rad or m: what moves by exactly so much is the joint's value, and no sine of it
 _PLACES = (("model", "data"), ("robot_env.model", "robot_env.data"), ("sim.model._model", "sim.data._data"))
 
 
@@ -71,11 +71,11 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
     Args:
         env: An environment with a MuJoCo model: of Gymnasium, Gymnasium-Robotics or robosuite.
         faults: A fault model, or the events of every episode.
-        joints: Names of joints in the model, or an arm; all hinges and slides that have a name if not given.
+        joints: Names of joints in the model, or an arm; if not given those that :class:`FaultInjector` takes.
         arm: The arm, and ``goal(env)``, where its tool should be, (3,) or (4, 4), m: to tell whether that is feasible.
         goal: See ``arm``.
         observes: Entries of the observation (a vector, or its part ``observation``) that hold a joint's value, by joint. If
-            not given they are found by moving each joint a little.
+            not given they are found by moving each joint.
         reveal: False: ``info`` says nothing, and only ``env.fault`` does, which no policy sees.
         horizon: s, the end of an episode, see :meth:`holdfast.faults.Faults.draw`.
         record: A folder for a record of each episode, see :func:`holdfast.faults.recorded`; more are added to it.
@@ -241,14 +241,18 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         state = np.zeros(self._mujoco.mj_stateSize(model, kind))
         self._mujoco.mj_getState(model, data, state, kind)
         before = _vector(look())
+        if before.shape != _vector(observation).shape or not np.allclose(before, _vector(observation), atol=1e-4):
+            raise InputError("another wrapper changes the observation; put it around this one, or give observes")
         for joint in joints:
             data.qpos[self._rows[self.injector.joints.index(joint)]] += _NUDGE
             self._mujoco.mj_forward(model, data)
             moved = _vector(look()) - before
-            self._observes[joint] = np.flatnonzero(np.abs(moved - _NUDGE) < 1e-9).tolist()
+            entries = np.flatnonzero(np.abs(moved - _NUDGE) < 1e-5)
             self._mujoco.mj_setState(model, data, state, kind)
+            if not entries.size:
+                raise InputError(f"no entry of the observation is the value of '{joint}'; give observes, or another fault")
+            self._observes[joint] = entries.tolist()
         self._mujoco.mj_forward(model, data)
-        del observation
 
 
 def _vector(observation: Any) -> Array:
