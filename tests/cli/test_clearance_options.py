@@ -11,8 +11,8 @@ import pytest
 
 import holdfast as hf
 from holdfast import Capsules, Clearance, arms
-from holdfast.cli.clearance import Apart
 from holdfast.cli.declaration import as_typer
+from holdfast.cli.groups import Apart
 from holdfast.cli.program import COMMANDS
 from holdfast.errors import InputError
 

@@ -9,8 +9,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import Apart
-from holdfast.cli.groups import Chain, Output
+from holdfast.cli.groups import Apart, Chain, Output
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,

@@ -8,8 +8,7 @@ from typing import Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import Apart
-from holdfast.cli.groups import Chain, Placement
+from holdfast.cli.groups import Apart, Chain, Placement
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import Apart
-from holdfast.cli.groups import Chain, Placement
+from holdfast.cli.groups import Apart, Chain, Placement
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import ArmArgument, JsonOption, OutOption, TaskOption
 from holdfast.cli.values import check_unit_of_places, read_configuration, read_objective, read_pose, read_task

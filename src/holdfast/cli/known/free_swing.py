@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 import holdfast as hf
-from holdfast.cli.clearance import Touched
-from holdfast.cli.groups import Chain, Output
+from holdfast.cli.groups import Chain, Output, Touched
 from holdfast.cli.options import ArmArgument, DegreesOption, MotionCsvOption
 from holdfast.cli.values import read_configuration, read_joint
 

@@ -9,8 +9,7 @@ import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import Apart
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import Apart, Chain
 from holdfast.cli.options import NOT_MET, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
 from holdfast.cli.values import (
     check_unit_of_path,

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.cli.clearance import Apart
-from holdfast.cli.groups import Chain, Output
+from holdfast.cli.groups import Apart, Chain, Output
 from holdfast.cli.options import TARGET_HELP, ArmArgument, SeedOption, TaskOption
 from holdfast.cli.values import read_pose, read_target, read_task
 from holdfast.errors import InputError

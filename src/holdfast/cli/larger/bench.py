@@ -8,8 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import CellOption
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import CellOption, Chain
 from holdfast.cli.larger.study import chunks_progress, stopping
 from holdfast.cli.options import ArmArgument, JsonOption
 from holdfast.present.results import printed, said

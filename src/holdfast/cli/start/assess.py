@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.clearance import Apart
-from holdfast.cli.groups import Chains
+from holdfast.cli.groups import Apart, Chains
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption
 from holdfast.cli.progress import progress_bar

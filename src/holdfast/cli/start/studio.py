@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import CellOption, MeshesOption
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import CellOption, Chain, MeshesOption
 from holdfast.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
 from holdfast.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 from holdfast.errors import InputError

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
-from holdfast.cli.clearance import Touched
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import Chain, Touched
 from holdfast.cli.laws import LawsOption, TargetsOption, read_laws, read_places, read_targets
 from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.cli.progress import progress_bar

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import Touched
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import Chain, Touched
 from holdfast.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
 from holdfast.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
 from holdfast.cli.values import read_configuration, read_failures, read_numbers, read_target

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import holdfast as hf
-from holdfast.cli.clearance import Touched
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import Chain, Touched
 from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
 from holdfast.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption, TaskOption
 from holdfast.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
