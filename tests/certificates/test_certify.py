@@ -180,11 +180,9 @@ def test_an_arm_on_a_rail(lock, rng, tmp_path):
         assert any(np.abs(found.fun).max() < 1e-9 for found in tries)
 
 
-def test_what_cannot_be_reached_stays_undecided(panda):
-    proof = hf.certify(reach_claim(panda, (1.5, 0, 0.3), 0.1), halvings=1)
-    assert proof.undecided == 1
-    assert proof.proved == 0
-    assert proof.leaves == 0
+def test_what_nothing_reaches_is_refused_before_the_search(panda):
+    with pytest.raises(InputError, match="no configuration is found for any of 250 targets"):
+        hf.certify(reach_claim(panda, (1.5, 0, 0.3), 0.1))
 
 
 def test_a_time_limit_leaves_the_rest_undecided(panda):

@@ -153,7 +153,8 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
         document = {"arm": documents._stored(arm), "limits": limits, "locked": -1, "lemmas": lemmas, "task": "position"}
         leaves = distances.Apart(document | {"target": target})
         if first:  # the links behind it alone
-            leaves.arm.origins, leaves.arm.turns = leaves.arm.origins[first:], leaves.arm.turns[first:]
+            for name in ("origins", "turns", "slides"):
+                setattr(leaves.arm, name, getattr(leaves.arm, name)[first:])
         placed = [
             np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1)
             for a, h in zip(np.hstack([q, x]).T, np.hstack([half, wide]).T, strict=True)

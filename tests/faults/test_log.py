@@ -72,7 +72,7 @@ def test_columns_that_are_wrong(columns, words, log, tmp_path):
         ("t,q_ref_1,q_1\n0,1\n", "line 2 has 2 cells, and the first line 3"),
         ("t,q_ref_1,q_2\n0,1,1\n1,1,1\n", r"its columns q_\* have a gap: their numbers are 2"),
         ("t,q_ref_1,q_1\n0,1,1\n0,1,1\n", "t does not increase at row 1"),
-        ("t,q_ref_1,q_1\n0,1,1\n1,1,1\n2,1,1\n9,1,1\n", "more samples are missing than there are: 4 in 9 s"),
+        ("t,q_ref_1,q_1\n0,1,1\n1,1,1\n2,1,1\n99,1,1\n", "nearly all samples are missing: 4 in 99 s"),
     ],
 )
 def test_a_record_that_is_wrong(text, words, tmp_path):

@@ -20,6 +20,7 @@ _WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: on
 _NEEDED = ("t", "q_ref", "q")
 _CLOCK = 1e6  # s: later times are those of a clock
 _LEAST = 40.0  # Hz: the observer's own rate, below which it says nothing
+_SPARSE = 20  # times as many samples as there are: longer gaps are between records, not in one
 _BEYOND, _FASTER = 0.5, 2.0  # rad or m beyond a limit, and of a speed limit: such references are in other units
 
 
@@ -37,7 +38,7 @@ class Log:
         quat: (T, 4) measured orientation of the tool, a quaternion x, y, z, w; with ``x``.
 
     Raises:
-        InputError: Shapes that do not fit, time that does not increase, or more samples missing than there are.
+        InputError: Shapes that do not fit, time that does not increase, or nearly all samples missing.
     """
 
     t: Array
@@ -68,9 +69,9 @@ class Log:
             raise InputError("only one of x and quat is there; give the tool's position and its orientation, or neither")
         rows = np.r_[0, np.cumsum(np.maximum(np.rint(np.diff(t) * self.rate), 1))].astype(np.int64)
         count = int(rows[-1]) + 1
-        if count > 2 * len(t):
+        if count > _SPARSE * len(t):
             raise InputError(
-                f"more samples are missing than there are: {len(t)} in {self.duration:.4g} s, at {self.rate:.4g} a second; "
+                f"nearly all samples are missing: {len(t)} in {self.duration:.4g} s, at {self.rate:.4g} a second; "
                 "give its parts as records of their own"
             )
         if count > len(t):

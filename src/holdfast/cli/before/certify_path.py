@@ -47,7 +47,7 @@ def path(
         model,
         read_joint_table(model, motion, "motion", "time_s").numbers(joint_columns(model)),
         failures=read_failures(model, failures),
-        during=tuple(when.tolist()),
+        during=tuple(when),
         tube=read_numbers("--tube", tube, "one number or two, m and rad,"),
         task=task,
         segments=segments,
