@@ -26,6 +26,8 @@ from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.rings import rings_of
 from holdfast.certificates.tree import PROVED
+from holdfast.certificates.verified import paths
+from holdfast.certificates.verified.tree import Cell
 from holdfast.errors import InputError
 
 Document = dict[str, Any]
@@ -114,7 +116,7 @@ def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
         numbers = [x for slab in part.slabs for x in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
         rows = np.array([row for slab in part.slabs for row in slab.centres], "<i4")
         kept = {"joint": part.joint, "followers": list(part.followers)}
-        kept |= {key: verifier.paths.text(getattr(part, key)) for key in ("proved", "refuted")}
+        kept |= {key: paths.text(getattr(part, key)) for key in ("proved", "refuted")}
         kept["refutations"] = [
             {"begin": one.begin, "stop": one.stop, "at": one.at, "tree": _packed(one.tree)} for one in part.never
         ]
@@ -130,7 +132,7 @@ def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
             "locks": locks,
             "points": points,
             "pairs": [] if rings is None else [list(pair) for pair in rings.pairs],
-            "volumes": verifier.paths.volumes([(part.proved, part.refuted) for part in parts]),
+            "volumes": paths.volumes([(part.proved, part.refuted) for part in parts]),
         }
     )
 
@@ -140,7 +142,7 @@ def _volumes(undecided: Fraction) -> Document:
     return {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()}
 
 
-def undecided(document: Document) -> list[verifier.Cell]:
+def undecided(document: Document) -> list[Cell]:
     """The cells of a reach certificate that are not proved."""
     tokens, box = verifier.unpacked(document["tree"], 2 * verifier.MOST_LEAVES, "tree"), document["target"]["box"]
     return [cell for token, cell in verifier.cells(tokens, len(box) + (document["angle"] is not None)) if token != PROVED]

@@ -46,10 +46,10 @@ else:  # run as a file: the folder lies beside it
 
 Refused, need, real, digest, unpacked = forms.Refused, forms.need, forms.real, forms.digest, forms.unpacked
 load, per_cent, sentence, snap, exact_rotation = files.load, words.per_cent, words.sentence, zeros.snap, zeros.exact_rotation
-Cell, cells, covered, volume, MOST_LEAVES = tree.Cell, tree.cells, tree.covered, tree.volume, tree.MOST_LEAVES
+cells, covered, volume, MOST_LEAVES = tree.cells, tree.covered, tree.volume, tree.MOST_LEAVES
 MOST_STEPS, LOCK, FOR_PEOPLE = tree.MOST_STEPS, bounds.LOCK, forms.FOR_PEOPLE
-CLAIMS = {"reach": targets.Leaves, "refutation": distances.Apart, "ceiling": bounds.Wrenches, "floor": bounds.Motions}
-CLAIMS |= {"structural-zero": zeros.Meeting}
+CLAIMS: dict[str, Any] = {"reach": targets.Leaves, "refutation": distances.Apart, "structural-zero": zeros.Meeting}
+CLAIMS |= {"ceiling": bounds.Wrenches, "floor": bounds.Motions}
 CHUNK = 256
 
 
@@ -63,7 +63,7 @@ class Verdict:
     rejected: int
     seconds: float = 0.0
     undecided: Fraction  # of the root box; of a bundle in its worst part
-    shadow: frozenset[Cell] = frozenset()  # cells of targets for which something is undecided
+    shadow: frozenset[tree.Cell] = frozenset()  # cells of targets for which something is undecided
     parts: tuple[Verdict, ...] = ()
     refuted: bool = False  # a configuration shows that the claim is false
     occurs: float = 0.0  # of a ceiling: a value that is attained, or less; of a floor, or more
@@ -105,7 +105,7 @@ class Verdict:
         elif kind != "structural-zero" and self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {words.per_cent(self.tolerant)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
-        return text + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
+        return str(text) + (f"; of {self.leaves}: sampled, not verified." if self.sampled else ".")
 
 
 def _looked_at(
@@ -198,7 +198,7 @@ def _bundle(document: dict[str, Any], sample: int | None, workers: int, tell: Ca
 
 def _together(document: dict[str, Any], parts: list[Verdict], seconds: float, **more: Any) -> Verdict:
     sums = {key: sum(getattr(part, key) for part in parts) for key in ("leaves", "accepted", "rejected")}
-    shadow, worst = frozenset[Cell]().union(*(part.shadow for part in parts)), max(part.undecided for part in parts)
+    shadow, worst = frozenset[tree.Cell]().union(*(part.shadow for part in parts)), max(part.undecided for part in parts)
     return Verdict(document=document, parts=tuple(parts), seconds=seconds, undecided=worst, shadow=shadow, **sums, **more)
 
 

@@ -18,6 +18,7 @@ from holdfast.certificates.proof import InParts, early, written
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.jobs import Job
 from holdfast.certificates.tool_paths.march import LockedPath
+from holdfast.certificates.verified import paths
 
 Array = NDArray[np.float64]
 Span = tuple[int, int]
@@ -55,12 +56,12 @@ class PathProof(InParts):
     @property
     def tolerant(self) -> Fraction:
         """Exact part of the lock instants that is proved whichever joint locks."""
-        left = [gap for part in self.parts for gap in verifier.paths.gaps(part.spans, self.document)]
-        return 1 - verifier.paths.share(left, self.document)
+        left = [gap for part in self.parts for gap in paths.gaps(part.spans, self.document)]
+        return 1 - paths.share(left, self.document)
 
     def gaps(self, part: LockedPath) -> list[Span]:
         """Undecided intervals of lock instants."""
-        return verifier.paths.gaps(part.spans + part.refuted_spans, self.document)
+        return paths.gaps(part.spans + part.refuted_spans, self.document)
 
     def write(self, file: str | Path) -> Path:
         """Write the certificate.

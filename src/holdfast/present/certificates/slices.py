@@ -8,7 +8,8 @@ import numpy as np
 
 from holdfast.certificates import documents
 from holdfast.certificates.proof import Proof, TolerantProof
-from holdfast.certificates.verifier import Cell, per_cent
+from holdfast.certificates.verified.tree import Cell
+from holdfast.certificates.verifier import per_cent
 from holdfast.present.certificates.pages import UNVERIFIED, kept
 from holdfast.present.certificates.pages import write as write
 from holdfast.present.story import Story
