@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from importlib.metadata import version
@@ -202,25 +202,30 @@ def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
     return lines
 
 
-def main() -> None:
-    """Make the table of one arm and write it; what a run before has judged is taken from the store."""
-    parser = argparse.ArgumentParser(prog="python -m papers.faults.chain", description=__doc__)
+def options(program: str, about: str | None, tasks: tuple[int, str]) -> argparse.Namespace:
+    """Those of a table of tasks; ``tasks``: how many if not given, and which count."""
+    parser = argparse.ArgumentParser(prog=f"python -m papers.faults.{program}", description=about)
     parser.add_argument("--arm", default="panda")
-    parser.add_argument("--tasks", type=int, default=20, help="tasks that the healthy robot finishes, each with a fault")
+    parser.add_argument("--tasks", type=int, default=tasks[0], help=tasks[1])
     parser.add_argument("--robots", type=int, default=40, help="other robots that bounds are calibrated on")
     parser.add_argument("--bounds", type=Path, help="file of these bounds: read, or else written")
     parser.add_argument("--store", type=Path, help="lines of JSON, one a task: resumed, and added to")
-    chosen = parser.parse_args()
-    arm = hf.arms.load(chosen.arm)
-    monitor: Monitor | None = None
+    return parser.parse_args()
+
+
+def entries(
+    arm: hf.Arm, judge: Callable[[hf.Arm, Trial, Monitor], dict[str, Any] | None], chosen: argparse.Namespace, *, seed: int
+) -> list[Mapping[str, Any]]:
+    """What became of each task that counts; what a run before has judged is taken from the store."""
     known = chosen.store.read_text(encoding="utf-8").splitlines() if chosen.store and chosen.store.exists() else []
     stored = {entry["number"]: entry for entry in map(json.loads, known)}
+    monitor: Monitor | None = None
     rows: list[Mapping[str, Any]] = []
-    for trial in trials(arm, seed=TASKS):
+    for trial in trials(arm, seed=seed):
         entry = stored.get(trial.number)
         if entry is None:
             monitor = monitor or Monitor(arm, bounds_of(arm, chosen.robots, chosen.bounds))
-            entry = judged(arm, trial, monitor) or {"number": trial.number}
+            entry = judge(arm, trial, monitor) or {"number": trial.number}
             if chosen.store:
                 with chosen.store.open("a", encoding="utf-8") as lines:
                     lines.write(json.dumps(entry) + "\n")
@@ -229,6 +234,14 @@ def main() -> None:
             print(f"\r{len(rows)} of {chosen.tasks} tasks", end="", file=sys.stderr, flush=True)
         if len(rows) >= chosen.tasks:
             break
+    return rows
+
+
+def main() -> None:
+    """Make the table of one arm and write it."""
+    chosen = options("chain", __doc__, (20, "tasks that the healthy robot finishes, each with a fault"))
+    arm = hf.arms.load(chosen.arm)
+    rows = entries(arm, judged, chosen, seed=TASKS)
     text = [
         f"# The chain on {arm.title}",
         "",

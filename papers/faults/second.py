@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 from collections.abc import Mapping, Sequence
 from datetime import datetime
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +11,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.diagnosis import Monitor
 from holdfast.faults import FaultEvent, feasible
-from papers.faults.chain import CALIBRATION, CENTRING, HERE, ONSET, PLANNED_LIMIT, Trial, bounds_of, made_with, percent, trials
+from papers.faults.chain import CALIBRATION, CENTRING, HERE, ONSET, PLANNED_LIMIT, Trial, entries, made_with, options, percent
 
 TASKS, DRAWS = 5200, 52  # seeds
 KINDS = ("locked", "limp", "sensor_freeze")
@@ -81,30 +77,9 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 def main() -> None:
     """Make the table of one arm and write it; what a run before has judged is taken from the store."""
-    parser = argparse.ArgumentParser(prog="python -m papers.faults.second", description=__doc__)
-    parser.add_argument("--arm", default="panda")
-    parser.add_argument("--tasks", type=int, default=10, help="tasks in which the second fault comes in time")
-    parser.add_argument("--robots", type=int, default=40, help="other robots that bounds are calibrated on")
-    parser.add_argument("--bounds", type=Path, help="file of these bounds: read, or else written")
-    parser.add_argument("--store", type=Path, help="lines of JSON, one a task: resumed, and added to")
-    chosen = parser.parse_args()
+    chosen = options("second", __doc__, (10, "tasks in which the second fault comes in time"))
     arm = hf.arms.load(chosen.arm)
-    known = chosen.store.read_text(encoding="utf-8").splitlines() if chosen.store and chosen.store.exists() else []
-    stored = {entry["number"]: entry for entry in map(json.loads, known)}
-    monitor = Monitor(arm, bounds_of(arm, chosen.robots, chosen.bounds))
-    rows: list[Mapping[str, Any]] = []
-    for trial in trials(arm, seed=TASKS):
-        entry = stored.get(trial.number)
-        if entry is None:
-            entry = judged(arm, trial, monitor) or {"number": trial.number}
-            if chosen.store:
-                with chosen.store.open("a", encoding="utf-8") as lines:
-                    lines.write(json.dumps(entry) + "\n")
-        if "kind" in entry:
-            rows.append(entry)
-            print(f"\r{len(rows)} of {chosen.tasks} tasks", end="", file=sys.stderr, flush=True)
-        if len(rows) >= chosen.tasks:
-            break
+    rows = entries(arm, judged, chosen, seed=TASKS)
     text = [
         f"# A second fault, {arm.title}",
         "",

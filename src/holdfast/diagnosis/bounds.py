@@ -225,7 +225,7 @@ def calibrate(
             others = [factor * np.delete(x, k, axis=0).max(axis=0) for x in largest]
             alarms += signals.scaled(*others).alarm is not None
     bounds = [factor * x.max(axis=0) for x in largest]
-    hours = sum(log.duration * s.seen.mean() for log, s in zip(logs, found, strict=True)) / _HOUR
+    hours = sum(log.duration * float(s.seen.mean()) for log, s in zip(logs, found, strict=True)) / _HOUR
     return Bounds(
         fingerprint=arm.fingerprint,
         joints=arm.joint_names,
