@@ -151,5 +151,7 @@ def test_every_name_is_a_task_with_the_rows_that_it_is_said_to_have(name):
 def test_names_of_tasks_and_failures_are_typed_in_one_place():
     lists = [", ".join(TASKS), '"pose", "pointing"', ", ".join(FAILURES), '"single", "pairs"']
     source = Path(hf.__file__).parent
-    typed = {file.name for file in source.rglob("*.py") for text in lists if text in file.read_text(encoding="utf-8")}
+    # The verifier of certificates shares no code with the rest and names the tasks for itself.
+    files = [file for file in source.rglob("*.py") if file.parent.name != "verified"]
+    typed = {file.name for file in files for text in lists if text in file.read_text(encoding="utf-8")}
     assert typed == set()
