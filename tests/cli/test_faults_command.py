@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 
 import holdfast as hf
+
+CALL = ["simulate", "panda", "--start", "0 0 0 -1.5 0 1.5 0", "--target", "0.3,0.4,0.6", "--task", "position"]
+CALL += ["--law", "damped:0.02", "--gain", "2", "--speed-limit", "0.25"]
 
 
 def test_the_command_prints_what_the_library_draws(cli, tmp_path):
@@ -26,16 +30,33 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     panda = hf.arms.load("panda")
     friction = {"coulomb": [0.5] * 7, "viscous": [0.3] * 7}
     hf.diagnosis.calibrate(panda, [hf.diagnosis.rehearse(panda, 1.0, body=0)], factor=3, **friction).to_json("bounds.json")
-    call = ["simulate", "panda", "--start", "0 0 0 -1.5 0 1.5 0", "--target", "0.3,0.4,0.6", "--task", "position"]
-    call += ["--law", "damped:0.02", "--gain", "2", "--speed-limit", "0.25", "--faults", "faults.yaml"]
-    found = ask(*call, "--physics", "--notice", "bounds.json", "--out", "chain")
+    found = ask(*CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--out", "chain")
     assert (found["ok"], found["react"], list(found["braked"])) == (True, "chain", ["panda_joint4"])
     assert found["noticed_s"] > 0.4
     page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
     assert "no certified safety function" in page
     assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
-    assert "add --physics and --faults" in refused(*call, "--notice", "bounds.json")
-    assert "--lock does not go with --faults" in refused(*call, "--physics", "--lock", "1")
+    assert "--notice is of an arm with bodies, motors and sensors; add --physics" in refused(*CALL, "--notice", "bounds.json")
+    assert "--record is of an arm" in refused(*CALL, "--record", "run.npz")
+    for more in (["--faults", "faults.yaml"], ["--notice", "bounds.json"], ["--record", "run.npz"]):
+        assert "--lock does not go with --faults" in refused(*CALL, "--physics", "--lock", "1", *more)
+
+
+def test_bounds_of_its_own_loop(ask, cli, tmp_path, monkeypatch):
+    """Records of healthy runs calibrate what watches the next; bounds too narrow alarm, and the run says that it is false."""
+    pytest.importorskip("mujoco")
+    monkeypatch.chdir(tmp_path)
+    for side, name in (("0.4", "left.npz"), ("-0.4", "right.csv")):
+        assert ask(*CALL[:5], f"0.3,{side},0.6", *CALL[6:], "--physics", "--record", name)["alarms"] == []
+    alike = hf.faults.Log.load("left.npz"), hf.faults.Log.load("right.csv")
+    assert [log.q.shape[1] for log in alike] == [7, 7]
+    cli("calibrate", "left.npz", "right.csv", "--arm", "panda", "--out", "bounds.json")
+    assert ask(*CALL, "--physics", "--notice", "bounds.json")["noticed_s"] is None
+    bounds = hf.diagnosis.load("bounds.json")
+    replace(bounds, torque=bounds.torque / 4).to_json("narrow.json")
+    found = cli(*CALL, "--physics", "--notice", "narrow.json")[1]
+    assert "no fault in this episode" in found
+    assert "the first alarm is false, nothing had failed" in found
 
 
 def test_without_physics_faults_are_locks(ask, refused, tmp_path):

@@ -142,6 +142,11 @@ class FaultRun(Result):
         first = min((event.onset for event in self.events), default=float("inf"))
         return self.noticed - first if self.noticed < float("inf") else self.noticed
 
+    @property
+    def false_alarm(self) -> bool:
+        """Whether something was noticed before anything had failed."""
+        return self.noticed < min((event.onset for event in self.events), default=float("inf"))
+
     @cached_property
     def poses(self) -> Array:
         """(T, 4, 4) of the end effector, m, world."""
@@ -160,8 +165,10 @@ class FaultRun(Result):
         ]
         lines += [event.sentence() for event in self.events] or ["no fault in this episode"]
         lines += [action.sentence() for action in self.actions]
-        if not self.actions:
+        if not self.actions and self.react != "none":
             lines.append("nothing was noticed")
+        if self.false_alarm:
+            lines.append("the first alarm is false, nothing had failed: the bounds do not hold for this motion")
         return lines
 
     def to_csv(self, file: str | Path) -> Path:

@@ -37,8 +37,10 @@ def command(
     faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
     episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
     notice: Annotated[
-        Path | None,
-        "With --physics --faults: bounds that calibrate wrote; a monitor names the joint, and the controller reacts.",
+        Path | None, "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts."
+    ] = None,
+    record: Annotated[
+        Path | None, "With --physics: write what the sensors told (.npz, .csv or .parquet), for calibrate and diagnose."
     ] = None,
     touched: Touched = Touched(),
     stop_at_contact: Annotated[bool, "With --cell: the run ends where the arm first touches an object."] = False,
@@ -58,23 +60,25 @@ def command(
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
     drawn_faults = None if faults is None else hf.faults.load(faults)
-    if drawn_faults is not None and physics:
+    if physics and (drawn_faults is not None or notice is not None or record is not None):
         _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--cell": touched.cell})
         watch = None if notice is None else hf.diagnosis.Monitor(made.arm, hf.diagnosis.load(notice))
         found = hf.simulate_faults(
             made,
             q0,
             goal,
-            faults=drawn_faults,
+            faults=() if drawn_faults is None else drawn_faults,
             episode=episode,
             monitor=watch,
             time_limit=12.0 if time_limit is None else time_limit,
             servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if watch is None else watch.bounds.rate),
         )
-        printed(found, json_, drawn(found, plot, out) + ([] if csv is None else [found.to_csv(csv)]))
+        records = [] if record is None else [found.log().save(record)]
+        printed(found, json_, drawn(found, plot, out) + records + ([] if csv is None else [found.to_csv(csv)]))
         return
-    if notice is not None:
-        raise InputError("--notice watches an arm with bodies and motors; add --physics and --faults")
+    for name, file in {"--notice": notice, "--record": record}.items():
+        if file is not None:
+            raise InputError(f"{name} is of an arm with bodies, motors and sensors; add --physics")
     if drawn_faults is not None:
         _refuse({"--lock": lock, "--failure": failure})
     happens = None if drawn_faults is None else drawn_faults.draw(made.arm, episode=episode)
@@ -97,7 +101,9 @@ def command(
 def _refuse(others: dict[str, object]) -> None:
     given = next((name for name, value in others.items() if value), None)
     if given is not None:
-        raise InputError(f"{given} does not go with --faults, which says what fails; leave one of them out")
+        raise InputError(
+            f"{given} does not go with --faults, --notice or --record: the faults file says what fails; leave it out"
+        )
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:

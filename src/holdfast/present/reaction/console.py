@@ -38,18 +38,13 @@ def to_dict(run: FaultRun) -> dict[str, Any]:
     }
 
 
-def tables(run: FaultRun) -> list[Rows]:
-    """Faults and actions in order of time."""
+def key_table(run: FaultRun) -> Rows:
+    """Faults and actions in order of time; elsewhere its sentences say them."""
     happened: list[tuple[float, str, str, str]] = [(e.onset, "fault", e.joint, e.kind) for e in run.events]
     happened += [(a.time, a.what, a.joint or "", a.why) for a in run.actions]
     rows = [[number(t, 4), *cells] for t, *cells in sorted(happened, key=lambda row: row[0])]
     end = [number(run.time[-1], 4), "end", "", run.outcome]
-    return [Rows(["time, s", "what", "joint", "why"], [*rows, end], "in order of time")]
-
-
-def key_table(run: FaultRun) -> Rows:
-    """Faults and actions."""
-    return tables(run)[0]
+    return Rows(["time, s", "what", "joint", "why"], [*rows, end], "in order of time")
 
 
 def next_steps(run: FaultRun, name: str) -> list[str]:
