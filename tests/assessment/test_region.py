@@ -166,13 +166,13 @@ def test_around_the_home_of_every_built_in_arm(name):
 
 
 @pytest.mark.parametrize("name", arms.names())
-def test_around_the_middle_of_the_joint_ranges_of_every_built_in_arm(name):
-    arm = arms.load(name)
-    region = Region.around(arm)
-    low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
-    high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
-    middle = region.poses(np.array([region.center]))[0]
-    np.testing.assert_allclose(middle, oracles.forward(arm, ((low + high) / 2)[None])[0], atol=1e-6)
+def test_where_no_configuration_is_given_most_of_the_region_is_in_reach(name):
+    """Around the middle of the joint ranges, where many arms are stretched, it is half of them."""
+    arm, task = arms.load(name), arms.about(name).task
+    assert Region.around(arm) == Region.around(arm)
+
+    found = hf.solve_ik(arm, Region.around(arm).poses(take(Region.around(arm), 256)), task=task, restarts=20)
+    assert found.success.mean() > 0.75
 
 
 def test_around_a_planar_arm_in_a_tilted_plane_is_reached(planar4):

@@ -139,6 +139,17 @@ def test_a_box_whose_middle_is_singular_is_halved(panda):
     assert hf.certify(claim, halvings=1).nodes > 5
 
 
+def test_what_was_given_up_is_looked_at_once_more(panda, monkeypatch):
+    """A search follows a bad branch of the arm into the smallest cells; configurations drawn for these find a good one."""
+    q = np.radians([-35, -45, 51, -111, -46, 84, -3])
+    tool = panda.forward_kinematics(q)
+    claim = reach_claim(panda, tool[:3, 3], 0.06, rotation=tool[:3, :3], locked={6: (q[6] - 0.05, q[6] + 0.05)})
+    assert hf.certify(claim, seed=6).undecided == 0
+    monkeypatch.setattr("holdfast.certificates.target_boxes.search._LITTLE", 0)
+    once = hf.certify(claim, seed=6)
+    assert 0 < once.undecided < 1e-6
+
+
 def test_a_pose_is_tolerant_of_a_lock(panda, tmp_path):
     tip = panda.forward_kinematics(START)
     ranges = {k: (x - 0.02, x + 0.02) for k, x in enumerate(START)}

@@ -32,7 +32,7 @@ def family3(space3) -> Family:
 
 @pytest.fixture(scope="session")
 def poses3(planar3) -> np.ndarray:
-    region = hf.Region.around(planar3)
+    region = hf.Region.around(planar3, [0.0, 0.25, -0.1])
     return region.poses(region.samples(0, 24, 0, seed=3, sampling="random", count=24))
 
 

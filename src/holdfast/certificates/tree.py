@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
 from fractions import Fraction
 
 import numpy as np
@@ -54,6 +54,11 @@ class Cells:
     name: Index
     q: Array
     barren: Index
+
+    @classmethod
+    def of(cls, several: Sequence[Cells]) -> Cells:
+        """All of them."""
+        return cls(*(np.concatenate([getattr(cells, one.name) for cells in several]) for one in fields(cls)))
 
     def take(self, which: NDArray[np.intp]) -> Cells:
         """Some of them."""

@@ -195,18 +195,18 @@ class Region(Shown):
         """The region where none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
 
         Angles range 90 degrees about the pose at ``q``; for an arm that moves in a plane, positions stay in that plane and
-        the angle is free. ``q`` is the middle of the joint ranges if not given.
+        the angle is free. ``q``, if not given, is the configuration farthest from a singularity of 256 in the middle halves
+        of the joint ranges: around the middle itself many arms are stretched, and half of the cube is out of reach.
         """
         from holdfast.arm.task import plane_normal
 
-        low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
-        high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
-        middle = (low + high) / 2 if q is None else arm.check_configurations(q)
-        if middle.ndim != 1 or not np.isfinite(middle).all():
-            raise InputError(f"q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
-        pose = arm.forward_kinematics(middle)
         reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
-        edge = share * max(reach, 1e-3)
+        reach = max(reach, 1e-3)
+        home = _far_from_singular(arm, reach) if q is None else arm.check_configurations(q)
+        if home.ndim != 1 or not np.isfinite(home).all():
+            raise InputError(f"q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
+        pose = arm.forward_kinematics(home)
+        edge = share * reach
         angles = rpy_from_rotation(pose[:3, :3])
         normal = plane_normal(arm)
         if normal is not None and abs(normal[2]) > 1 - 1e-9:
@@ -461,6 +461,18 @@ def builtin_region(arm: str) -> Region | None:
         return None
     quarter = np.pi / 2
     return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
+
+
+def _far_from_singular(arm: Arm, reach: float) -> Array:
+    """(n,) of the middle of the joint ranges and 255 others about it; lengths count by the arm's reach, m."""
+    low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+    high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+    away = np.random.default_rng(0).random((256, arm.n)) - 0.5
+    away[0] = 0.0
+    q = (low + high) / 2 + away * (high - low) / 2
+    values = np.linalg.svd(arm.jacobian(q) / np.repeat([reach, 1.0], 3)[:, None], compute_uv=False)
+    rank = int((values.max(axis=0) > 1e-9).sum())  # an arm that moves in a plane has three at most
+    return np.asarray(q[values[:, max(rank, 1) - 1].argmax()])
 
 
 def default_region(arm: Arm, spec: str | None = None) -> Region:

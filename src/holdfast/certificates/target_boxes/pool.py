@@ -68,10 +68,17 @@ class Pool:
         while self.wanted and monotonic() < self._until:
             self._grown()
 
-    def _grown(self) -> tuple[Array, Array]:
+    def draw(self, at: Array, until: float) -> None:
+        """Configurations of some of these targets and locked angles (N, A), too, if there is time (``monotonic``)."""
+        self._until, wanted = max(self._until, until), self.wanted
+        self._grown(at[self._rng.permutation(len(at))[:_TARGETS]])
+        self.wanted = wanted
+
+    def _grown(self, drawn: Array | None = None) -> tuple[Array, Array]:
         """Configurations of some targets more, where one is found, and these; added, too."""
         reach = self._reach
-        drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
+        if drawn is None:
+            drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
         at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < self._until else 0]
         low, high = reach.spans.T
         q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)

@@ -29,6 +29,10 @@ _LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
 
 _SMALL = 0.75  # of all halvings
 _DEEPER = 0.25  # of a halving: so much is a cell worth more for being smaller
+_LITTLE, _FEW = (
+    0.01,
+    250,
+)  # of the root: where no more is left at the end, what was given up is looked at once more; cells at first
 
 
 class Search:
@@ -55,6 +59,10 @@ class Search:
         self.pool = Pool(reach, root, self.rng, until)
         self.open = self.proved = 0.0
         self._open: list[tuple[float, int, Index, Index, Array, int]] = []
+        self._given_up: list[Cells] = []
+        self._again: tuple[float, float] | None = (
+            None  # what was proved before the last such look, and the cells' share
+        )
         start = self.pool.q[:1] if len(self.pool.q) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
         whole = np.zeros((1, len(root)), dtype=np.int64)
         none = np.zeros(1, dtype=np.int64)
@@ -73,12 +81,40 @@ class Search:
         """
         if self.pool.wanted:
             self.pool.enlarge((monotonic() + until) / 2)
-        while self._open and monotonic() < until and not stop():
+        while (self._open or self._once_more(until)) and monotonic() < until and not stop():
             taken = [heappop(self._open) for _ in range(min(_AT_ONCE, len(self._open)))]
             _, names, *parts, barren = map(np.array, zip(*taken, strict=True))
             self._look(Cells(parts[0], parts[1], names, parts[2], barren))
             tell(1 - self.open)
         return not self._open
+
+    def _once_more(self, until: float) -> bool:
+        """Whether cells that were given up are looked at once more, with configurations drawn for them alone.
+
+        A few at first, then all, for as long as more than half of what was looked at again is proved: cells are given up
+        because all that was near them was bad, or because they cannot be proved.
+        """
+        if not self._given_up:
+            return False
+        cells = Cells.of(self._given_up)
+        if self._again is None:
+            if cells.share > _LITTLE:
+                return False
+            order = self.rng.permutation(len(cells.name))
+            cells, self._given_up = cells.take(order[:_FEW]), [cells.take(order[_FEW:])] if len(order) > _FEW else []
+        elif self.proved - self._again[0] > self._again[1] / 2:
+            self._given_up = []
+        else:
+            return False
+        self._again = self.proved, cells.share
+        self.pool.draw(self._middle(cells.place, cells.depth), until)
+        cells.barren[:] = 0
+        self._push(cells, np.ones(len(cells.name)))
+        return True
+
+    def _middle(self, place: Index, depth: Index) -> Array:
+        """(N, A) of cells."""
+        return np.asarray(self.root[:, 0] + self.width * (2 * place + 1) * 0.5 ** (depth + 1))
 
     def _push(self, cells: Cells, part: Array) -> None:
         """To be looked at; of the cells around them these parts (N,), by width, were proved by one configuration.
@@ -99,8 +135,7 @@ class Search:
         """Those that are proved are leaves; the halves of the others are to be looked at."""
         self.nodes += len(cells.name)
         self.open -= cells.share
-        scale = 0.5 ** (cells.depth + 1)
-        half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
+        half, centre = self.width * 0.5 ** (cells.depth + 1), self._middle(cells.place, cells.depth)
         q, found, part = self._tried(cells.q, centre, half)
         smallest = np.asarray((cells.depth >= self.halvings)[:, self.width > 0].all(axis=1))
         self._from_pool(q, found, part, smallest, centre, half)
@@ -123,6 +158,8 @@ class Search:
         axes = int((self.width > 0).sum())
         lost |= (barren >= axes) & (cells.depth.sum(axis=1) >= _SMALL * self.halvings[self.width > 0].sum())
         some = np.flatnonzero(~found & ~smallest & ~lost)
+        if (gone := np.flatnonzero(~found & (smallest | lost))).size:
+            self._given_up.append(cells.take(gone))
         rest = cells.take(some)
         rest.q, rest.barren = q[some], barren[some]
         form = Form.at(self.reach, rest.q, centre[some, : self.reach.axes])
