@@ -78,12 +78,14 @@ class Tree:
         below: The lower child of each node that is split; the upper one is the next.
         centre: (n,) of each proved node, in units of 2^-24 rad.
         depth: Halvings above each node.
+        above: The node that each is a half of.
     """
 
     def __init__(self) -> None:
         self.token: list[int] = [UNDECIDED]
         self.below: list[int] = [0]
         self.depth: list[int] = [0]
+        self.above: list[int] = [-1]
         self.centre: dict[int, Index] = {}
 
     def prove(self, name: int, centre: Index) -> None:
@@ -96,6 +98,7 @@ class Tree:
         self.token += [UNDECIDED] * 2
         self.below += [0] * 2
         self.depth += [self.depth[name] + 1] * 2
+        self.above += [name] * 2
         return self.below[name]
 
     def halved(self, cells: Cells, axis: Index) -> Cells:
@@ -106,6 +109,23 @@ class Tree:
         place[rows, twice] = 2 * place[rows, twice] + rows % 2
         depth[rows, twice] += 1
         return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2))
+
+    def whole_again(self, cells: Cells) -> Cells:
+        """Of undecided cells, two halves of one are that one, which is undecided and not halved."""
+        while True:
+            above = np.array(self.above, dtype=np.int64)[cells.name]
+            names, first, count = np.unique(above, return_index=True, return_counts=True)
+            pairs = (count == 2) & (names >= 0)
+            if not pairs.any():
+                return cells
+            one = cells.take(first[pairs])
+            axis = np.array(self.token)[names[pairs]] - SPLIT
+            one.place[np.arange(len(axis)), axis] //= 2
+            one.depth[np.arange(len(axis)), axis] -= 1
+            one.name = names[pairs]
+            for name in one.name.tolist():
+                self.token[name] = UNDECIDED
+            cells = Cells.of([one, cells.take(np.flatnonzero(~np.isin(above, one.name)))])
 
     def in_order(self) -> tuple[bytes, list[Index]]:
         """Tokens in pre-order, lower half first, and the centres of the proved leaves in this order."""

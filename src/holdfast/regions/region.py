@@ -464,11 +464,10 @@ def builtin_region(arm: str) -> Region | None:
 
 
 def _far_from_singular(arm: Arm, reach: float) -> Array:
-    """(n,) of the middle of the joint ranges and 255 others about it; lengths count by the arm's reach, m."""
+    """(n,) of 256 about the middle of the joint ranges; lengths count by the arm's reach, m."""
     low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
     high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
     away = np.random.default_rng(0).random((256, arm.n)) - 0.5
-    away[0] = 0.0
     q = (low + high) / 2 + away * (high - low) / 2
     values = np.linalg.svd(arm.jacobian(q) / np.repeat([reach, 1.0], 3)[:, None], compute_uv=False)
     rank = int((values.max(axis=0) > 1e-9).sum())  # an arm that moves in a plane has three at most

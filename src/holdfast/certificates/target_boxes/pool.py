@@ -56,23 +56,22 @@ class Pool:
         self._added: list[tuple[Array, Array]] = []
         self._best, self._tree = list[tuple[Array, Array]](), cast(Any, None)
         self._half = np.zeros(len(root))
-        self.wanted = 1
         self.drawn = self.lost = 0
         self.q, self._at = self._grown()
         self.cells, self.halved, self.seconds = self._estimate(self.q, self._at)
-        self.wanted += max(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1, 0)
+        self.wanted = int(monotonic() >= until) + max(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1, 0)
 
     def enlarge(self, until: float) -> None:
         """As large as the claim asks, or as there is time for (``monotonic``); an estimate does without."""
         self._until = max(self._until, until)
         while self.wanted and monotonic() < self._until:
             self._grown()
+            self.wanted -= monotonic() < self._until
 
-    def draw(self, at: Array, until: float) -> None:
-        """Configurations of some of these targets and locked angles (N, A), too, if there is time (``monotonic``)."""
-        self._until, wanted = max(self._until, until), self.wanted
-        self._grown(at[self._rng.permutation(len(at))[:_TARGETS]])
-        self.wanted = wanted
+    def draw(self, low: Array, width: Array, until: float) -> None:
+        """Configurations of targets and locked angles in some of these cells (N, A), too, if there is time (``monotonic``)."""
+        self._until, some = max(self._until, until), np.resize(self._rng.permutation(len(low)), _TARGETS)
+        self._grown(low[some] + self._rng.random(low[some].shape) * width[some])
 
     def _grown(self, drawn: Array | None = None) -> tuple[Array, Array]:
         """Configurations of some targets more, where one is found, and these; added, too."""
@@ -96,7 +95,6 @@ class Pool:
         best = order[np.unique(at[order], axis=0, return_index=True)[1]]
         found, _, _ = self._climbed(q[best], at[best], wide[best], _BEST)
         self._best.append((at[best] / self._unit, found))
-        self.wanted -= monotonic() < self._until
         return q, at
 
     def _climbed(self, q: Array, at: Array, wide: Array, steps: int) -> tuple[Array, Array, Array]:

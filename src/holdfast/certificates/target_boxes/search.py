@@ -60,9 +60,7 @@ class Search:
         self.open = self.proved = 0.0
         self._open: list[tuple[float, int, Index, Index, Array, int]] = []
         self._given_up: list[Cells] = []
-        self._again: tuple[float, float] | None = (
-            None  # what was proved before the last such look, and the cells' share
-        )
+        self._again: float | None = None  # what must be proved of the root by the end of such a second look
         start = self.pool.q[:1] if len(self.pool.q) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
         whole = np.zeros((1, len(root)), dtype=np.int64)
         none = np.zeros(1, dtype=np.int64)
@@ -81,7 +79,7 @@ class Search:
         """
         if self.pool.wanted:
             self.pool.enlarge((monotonic() + until) / 2)
-        while (self._open or self._once_more(until)) and monotonic() < until and not stop():
+        while (self._open or (self._given_up and self._once_more(until))) and monotonic() < until and not stop():
             taken = [heappop(self._open) for _ in range(min(_AT_ONCE, len(self._open)))]
             _, names, *parts, barren = map(np.array, zip(*taken, strict=True))
             self._look(Cells(parts[0], parts[1], names, parts[2], barren))
@@ -89,32 +87,23 @@ class Search:
         return not self._open
 
     def _once_more(self, until: float) -> bool:
-        """Whether cells that were given up are looked at once more, with configurations drawn for them alone.
+        """Whether cells that were given up, a few and then all, are looked at again: while more than half of them is proved.
 
-        A few at first, then all, for as long as more than half of what was looked at again is proved: cells are given up
-        because all that was near them was bad, or because they cannot be proved.
+        They cannot be proved, or all that was near them was bad: configurations are drawn for them alone.
         """
-        if not self._given_up:
+        cells = self.tree.whole_again(Cells.of(self._given_up))
+        order, few = self.rng.permutation(len(cells.name)), _FEW if self._again is None else len(cells.name)
+        if cells.share > _LITTLE if self._again is None else self.proved <= self._again:
+            self._given_up = [cells]
             return False
-        cells = Cells.of(self._given_up)
-        if self._again is None:
-            if cells.share > _LITTLE:
-                return False
-            order = self.rng.permutation(len(cells.name))
-            cells, self._given_up = cells.take(order[:_FEW]), [cells.take(order[_FEW:])] if len(order) > _FEW else []
-        elif self.proved - self._again[0] > self._again[1] / 2:
-            self._given_up = []
-        else:
-            return False
-        self._again = self.proved, cells.share
-        self.pool.draw(self._middle(cells.place, cells.depth), until)
+        self._given_up = [cells.take(order[few:])] if few < len(order) else []
+        cells = cells.take(order[:few])
+        self._again = self.proved + cells.share / 2
+        width = self.width * 0.5**cells.depth
+        self.pool.draw(self.root[:, 0] + width * cells.place, width, until)
         cells.barren[:] = 0
         self._push(cells, np.ones(len(cells.name)))
         return True
-
-    def _middle(self, place: Index, depth: Index) -> Array:
-        """(N, A) of cells."""
-        return np.asarray(self.root[:, 0] + self.width * (2 * place + 1) * 0.5 ** (depth + 1))
 
     def _push(self, cells: Cells, part: Array) -> None:
         """To be looked at; of the cells around them these parts (N,), by width, were proved by one configuration.
@@ -135,7 +124,8 @@ class Search:
         """Those that are proved are leaves; the halves of the others are to be looked at."""
         self.nodes += len(cells.name)
         self.open -= cells.share
-        half, centre = self.width * 0.5 ** (cells.depth + 1), self._middle(cells.place, cells.depth)
+        scale = 0.5 ** (cells.depth + 1)
+        half, centre = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
         q, found, part = self._tried(cells.q, centre, half)
         smallest = np.asarray((cells.depth >= self.halvings)[:, self.width > 0].all(axis=1))
         self._from_pool(q, found, part, smallest, centre, half)
