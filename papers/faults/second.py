@@ -87,7 +87,7 @@ def main() -> None:
         f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {TASKS} (tasks and robots), {DRAWS} (faults), {CALIBRATION} "
         "(calibration). Everything is **simulated**.",
         "",
-        "Robots, tasks and law are those of [the chain](CHAIN-panda.md), other seeds. Two joints, drawn evenly, fail one after "
+        "Robots, tasks and law are those of the chain, other seeds. Two joints, drawn evenly, fail one after "
         f"the other, each locked, free-swinging or with a frozen sensor: the first after {ONSET[0]:g} to {ONSET[1]:g} s, the "
         f"second {AFTER:g} s after the first was braked; tasks that are over before are left out. Feasible: a motion to the "
         "target exists, from where the arm is when the second fault begins, with both joints locked there. Fractions are in "
