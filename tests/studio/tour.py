@@ -100,6 +100,23 @@ def pa10(browser, folder):
     served.stop()
 
 
+def watching(browser, folder):
+    """A joint locks while the arm moves, and a monitor names it."""
+    served, page, window = open_page(browser, "panda", (0.0, -0.62, 0.18, -2.33, -0.15, 1.38, 0.73), task="position")
+    page.get_by_role("tab", name="Watch").click()
+    button = page.get_by_role("button", name="Move, fail and watch")
+    wait_for(page, button.is_enabled)
+    button.click()
+    wait_for(page, lambda: window.watched is not None, 60)
+    window.ask("time", 1.6)
+    wait_for(page, lambda: page.locator(".hf-watch[data-alarm]").count() == 1)
+    take(page, window, "Watch", folder / "panda-watch.png")
+    page.locator(".hf-watch li").last.scroll_into_view_if_needed()  # the residuals, which are below
+    page.wait_for_timeout(300)
+    page.screenshot(path=folder / "panda-watch.png")
+    served.stop()
+
+
 def crane(browser, folder):
     """An arm of one's own, with the shapes of its file; a joint that lets go."""
     served, page, window = open_page(browser, CRANE, (0.1, 0.5, 0.3, 1.2, 0.4, 0.7, 0.2))
@@ -118,6 +135,7 @@ def main() -> None:
     with chromium.opened(scenes=True) as browser:
         panda_rest(*panda_start(browser, folder), folder)
         pa10(browser, folder)
+        watching(browser, folder)
         crane(browser, folder)
     for file in sorted(folder.glob("*.png")):
         print(file)
