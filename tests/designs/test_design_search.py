@@ -101,9 +101,9 @@ def test_reach_within_limits_against_a_bounded_optimiser(rng):
 
 
 @pytest.fixture(scope="module")
-def small(planar3, space3):
+def small(region3, space3):
     return {
-        "region": hf.Region.around(planar3, [0.0, 0.25, -0.1]),
+        "region": region3,
         "task": "planar",
         "poses": 32,
         "designs": 24,
@@ -177,8 +177,8 @@ def test_the_same_seed_gives_the_same_bits_with_one_thread_and_after_a_stop(
     np.testing.assert_array_equal(again.checked.best.distribution.values, searched.checked.best.distribution.values)
 
 
-def test_the_slope_that_climbs_is_that_of_the_smooth_quantile(space3, family3, planar3):
-    search = _Search(family3, hf.Region.around(planar3, [0.0, 0.25, -0.1]), 0.75, 32, 0)
+def test_the_slope_that_climbs_is_that_of_the_smooth_quantile(space3, family3, region3):
+    search = _Search(family3, region3, 0.75, 32, 0)
     x = np.array([0.9, 0.9, 0.7, 1.4, -1.5])
     found = search.evaluator(x[None])
     value, slope = search.smooth(found)

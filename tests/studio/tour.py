@@ -18,6 +18,7 @@ from studio_pages import wait_for
 import chromium
 
 CRANE = str(Path(__file__).parent / "arms" / "inspection-crane.urdf")
+PANDA = (0.0, -0.62, 0.18, -2.33, -0.15, 1.38, 0.73)  # rad
 SIZE = {"width": 1200, "height": 780}
 
 
@@ -40,10 +41,12 @@ def open_page(browser, name, q, **state):
     return served, page, window
 
 
-def take(page, window, tab, file):
-    """A screenshot of a tab, once the page has drawn what the window shows."""
+def take(page, window, tab, file, *, down_to=None):
+    """A screenshot of a tab, once the page has drawn what the window shows; scrolled down to the last such element."""
     window.settle(240)
     page.get_by_role("tab", name=tab).click()
+    if down_to is not None:
+        page.locator(down_to).last.scroll_into_view_if_needed()
     page.evaluate("() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(f))))")
     page.wait_for_timeout(1200)
     page.screenshot(path=file)
@@ -51,7 +54,7 @@ def take(page, window, tab, file):
 
 def panda_start(browser, folder):
     """What one sees first, and a joint that locks."""
-    served, page, window = open_page(browser, "panda", (0.0, -0.62, 0.18, -2.33, -0.15, 1.38, 0.73))
+    served, page, window = open_page(browser, "panda", PANDA)
     take(page, window, "Move", folder / "panda-start.png")
     window.ask("fail", (3, "locked"))
     take(page, window, "Fail", folder / "panda-locked.png")
@@ -102,7 +105,7 @@ def pa10(browser, folder):
 
 def watching(browser, folder):
     """A joint locks while the arm moves, and a monitor names it."""
-    served, page, window = open_page(browser, "panda", (0.0, -0.62, 0.18, -2.33, -0.15, 1.38, 0.73), task="position")
+    served, page, window = open_page(browser, "panda", PANDA, task="position")
     page.get_by_role("tab", name="Watch").click()
     button = page.get_by_role("button", name="Move, fail and watch")
     wait_for(page, button.is_enabled)
@@ -110,10 +113,7 @@ def watching(browser, folder):
     wait_for(page, lambda: window.watched is not None, 60)
     window.ask("time", 1.6)
     wait_for(page, lambda: page.locator(".hf-watch[data-alarm]").count() == 1)
-    take(page, window, "Watch", folder / "panda-watch.png")
-    page.locator(".hf-watch li").last.scroll_into_view_if_needed()  # the residuals, which are below
-    page.wait_for_timeout(300)
-    page.screenshot(path=folder / "panda-watch.png")
+    take(page, window, "Watch", folder / "panda-watch.png", down_to=".hf-watch li")
     served.stop()
 
 

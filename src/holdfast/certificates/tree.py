@@ -77,15 +77,11 @@ class Tree:
         token: Of each node: proved, undecided, or 16 and the axis that is halved.
         below: The lower child of each node that is split; the upper one is the next.
         centre: (n,) of each proved node, in units of 2^-24 rad.
-        depth: Halvings above each node.
-        above: The node that each is a half of.
     """
 
     def __init__(self) -> None:
         self.token: list[int] = [UNDECIDED]
         self.below: list[int] = [0]
-        self.depth: list[int] = [0]
-        self.above: list[int] = [-1]
         self.centre: dict[int, Index] = {}
 
     def prove(self, name: int, centre: Index) -> None:
@@ -97,8 +93,6 @@ class Tree:
         self.token[name], self.below[name] = SPLIT + axis, len(self.token)
         self.token += [UNDECIDED] * 2
         self.below += [0] * 2
-        self.depth += [self.depth[name] + 1] * 2
-        self.above += [name] * 2
         return self.below[name]
 
     def halved(self, cells: Cells, axis: Index) -> Cells:
@@ -112,14 +106,17 @@ class Tree:
 
     def whole_again(self, cells: Cells) -> Cells:
         """Of undecided cells, two halves of one are that one, which is undecided and not halved."""
+        token, below = np.array(self.token), np.array(self.below, dtype=np.int64)
+        halved, parent = np.flatnonzero(token >= SPLIT), np.full(len(token), -1)
+        parent[below[halved]] = parent[below[halved] + 1] = halved
         while True:
-            above = np.array(self.above, dtype=np.int64)[cells.name]
+            above = parent[cells.name]
             names, first, count = np.unique(above, return_index=True, return_counts=True)
             pairs = (count == 2) & (names >= 0)
             if not pairs.any():
                 return cells
             one = cells.take(first[pairs])
-            axis = np.array(self.token)[names[pairs]] - SPLIT
+            axis = token[names[pairs]] - SPLIT
             one.place[np.arange(len(axis)), axis] //= 2
             one.depth[np.arange(len(axis)), axis] -= 1
             one.name = names[pairs]

@@ -145,7 +145,7 @@ class FaultRun(Result):
     @property
     def false_alarm(self) -> bool:
         """Whether something was noticed before anything had failed."""
-        return self.noticed < min((event.onset for event in self.events), default=float("inf"))
+        return self.delay < 0
 
     @cached_property
     def poses(self) -> Array:

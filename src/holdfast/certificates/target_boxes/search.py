@@ -29,10 +29,8 @@ _LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
 
 _SMALL = 0.75  # of all halvings
 _DEEPER = 0.25  # of a halving: so much is a cell worth more for being smaller
-_LITTLE, _FEW = (
-    0.01,
-    250,
-)  # of the root: where no more is left at the end, what was given up is looked at once more; cells at first
+_LITTLE = 0.01  # of the root: where no more is left at the end, what was given up is looked at once more,
+_FEW = 250  # of its cells at first
 
 
 class Search:
