@@ -229,8 +229,8 @@ class Form:
         parameters = np.concatenate([self.parts, self._whole(cells), room], axis=1)
         state = np.zeros((len(self.q), r.m + 4))
         state[:, r.m : r.m + 3] = begin
-        found = np.nan_to_num(r.expansion.tests.run(state, parameters, 0.5, _STEPS).state)
-        return found[:, r.m], found[:, : r.m]
+        found = r.expansion.tests.run(state, parameters, 0.5, _STEPS).state
+        return np.nan_to_num(found[:, r.m]), found[:, : r.m]
 
     def worst_axis(self, cells: Array, may: Flags) -> Index:
         """(N,) the axis among those that may (N, c) whose halving leaves least error and least beyond the limits."""

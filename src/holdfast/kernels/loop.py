@@ -21,6 +21,7 @@ Tell = Callable[[int], None]
 _BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
 _MOST, _LEAST = 4096, 256  # rows of that; no result depends on it
 _STRETCH = 1000  # steps after which somebody is told of them
+_NEVER = 1 << 62  # when a row comes that is not there
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,19 +142,19 @@ class Loop:
         left = batch.take(most)
         if not left.size:
             return
-        columns, out, step = self._stage(batch.inputs(left))
+        columns, out, step = self._stage(*batch.inputs(left))
         state, after, residual = columns[:size], out[:size], out[-1, : left.size]  # views are made once, not in each step
-        begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
+        begun, waiting = np.zeros(left.size, dtype=np.int64), np.full(left.size, tolerance)  # when rows came; NaN: none waits
         # Steps taken where a residual is measured, and of how many was told; when a row gives up, or this is to be told.
         now, last, told = int(ahead), min(batch.most_steps, _STRETCH), 0
         while True:
             step()
-            small = residual <= tolerance
+            small = residual <= waiting
             if now < last and not np.count_nonzero(small):  # a few rows may take many steps: nothing else is done for them
                 state[...] = after
                 now += 1
                 continue
-            over = waiting & (small if now < last else small | (now - begun >= batch.most_steps))
+            over = small if now < last else small | (now - begun >= batch.most_steps)
             done = over.nonzero()[0]
             rows = left[done]
             result.state[rows] = (after if ahead else state)[:, done].T
@@ -170,21 +171,18 @@ class Loop:
             fresh = batch.take(done.size)
             places, gone = done[: fresh.size], done[fresh.size :]
             if fresh.size:
-                columns[:, places] = batch.inputs(fresh)
+                columns[:, places] = np.concatenate(batch.inputs(fresh))
                 left[places], begun[places] = fresh, now + (not ahead)
-            waiting[gone] = False
             if gone.size:
-                still = waiting.nonzero()[0]
+                waiting[gone], begun[gone] = np.nan, _NEVER
+                still = (begun < _NEVER).nonzero()[0]
                 if not still.size:
                     return
                 if 4 * still.size <= 3 * left.size:
                     # No rows are left to take: a batch that shrinks is cheaper.
-                    columns, out, step = self._stage(columns[:, still])
+                    columns, out, step = self._stage(columns.take(still, axis=1))
                     left, begun, waiting = left[still], begun[still], waiting[still]
                     state, after, residual = columns[:size], out[:size], out[-1, : left.size]
-                else:
-                    idle = (~waiting).nonzero()[0]  # they do what another row does, so that nobody needs to look at them
-                    columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
             now += 1
             last = min(int(begun.min()) + batch.most_steps, told + _STRETCH)
 
@@ -192,27 +190,24 @@ class Loop:
         """The states (steps + 1, N, s) of every row on its way, ``state`` first; the residual is not looked at."""
         way = np.empty((steps + 1, *state.shape))
         way[0] = state
-        columns, out, step = self._stage(np.concatenate([state.T, parameters.T]))
+        columns, out, step = self._stage(state.T, parameters.T)
         before, after, rows = columns[: self.size], out[: self.size], out[: self.size, : len(state)].T
         for k in range(1, steps + 1):
             step()
             way[k], before[...] = rows, after
         return way
 
-    def _stage(self, values: Array) -> tuple[Array, Array, Callable[[], None]]:
-        """Columns of states and parameters, those of the results, and the step from these to those."""
-        columns = self._columns(values)
-        out = np.empty((self.size + 1, columns.shape[1]))
-        return columns, out, self.step.bound(columns, out)
+    def _stage(self, *values: Array) -> tuple[Array, Array, Callable[[], None]]:
+        """Columns of states and parameters, those of the results, and the step from these to those.
 
-    def _columns(self, values: Array) -> Array:
-        """Contiguous (s + p, W) with W a multiple of the SIMD width, padded with the last column."""
-        used = values.shape[1]
+        The SIMD width divides their number: the last of the columns is repeated.
+        """
+        used = values[0].shape[1]
         width = -(-used // self.step.lanes) * self.step.lanes
-        padded = np.empty((values.shape[0], width))
-        padded[:, :used] = values
-        padded[:, used:] = values[:, used - 1 : used]
-        return padded
+        columns, out = np.empty((self.step.program.n_in, width)), np.empty((self.size + 1, width))
+        np.concatenate(values, out=columns[:, :used])
+        columns[:, used:] = columns[:, used - 1 : used]
+        return columns, out, self.step.bound(columns, out)
 
 
 class _Batch:
@@ -240,7 +235,7 @@ class _Batch:
             self._next = min(start + count, len(self._parameters))
             return np.arange(start, self._next)
 
-    def inputs(self, rows: NDArray[np.int64]) -> Array:
-        """(s + p, R) where these consecutive rows start, and their parameters."""
+    def inputs(self, rows: NDArray[np.int64]) -> tuple[Array, Array]:
+        """(s, R) where these consecutive rows start, and (p, R) their parameters."""
         some = slice(rows[0], rows[-1] + 1)
-        return np.concatenate([self.result.state[some].T, self._parameters[some].T])
+        return self.result.state[some].T, self._parameters[some].T

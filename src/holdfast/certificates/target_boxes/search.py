@@ -19,8 +19,8 @@ Index = NDArray[np.int64]
 Tell = Callable[[float], None]
 
 _NEAR = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
-_STEPS = 6  # along self-motions
-_AT_ONCE = 2048
+_STEPS = 4  # along self-motions
+_AT_ONCE = 4096
 _LEAST_TURN = 1e-3  # rad: a tool turned away by less may come to its target
 _HOPELESS = 0.35  # of its cell that a configuration proves: others are tried
 _MOVED = 14 / 16  # of its cell: where a configuration proves more, it is moved to prove all
@@ -30,7 +30,7 @@ _LEAST = 1 / 32  # of a cell of which nothing was proved, for its worth
 _SMALL = 0.75  # of all halvings
 _DEEPER = 0.25  # of a halving: so much is a cell worth more for being smaller
 _LITTLE = 0.01  # of the root: where no more is left at the end, what was given up is looked at once more,
-_FEW = 250  # of its cells at first
+_FEW = 16  # of its cells at first
 
 
 class Search:
