@@ -55,7 +55,7 @@ def half_widths(arm, locked, at, q):
     def balls(half):
         return np.array([by_intervals(arm, a, b[:3], locked, x) for a, b, x in zip(q, at, half, strict=True)])
 
-    return np.array([widest(len(q), lambda half: form.proved(np.tile(half[:, None], at.shape[1]))[0]), widest(len(q), balls)])
+    return np.array([widest(len(q), lambda half: form.proved(np.tile(half[:, None], at.shape[1]))), widest(len(q), balls)])
 
 
 def widest(count, proved):

@@ -201,10 +201,9 @@ class Form:
         """With 0 for the angle of the lock of a healthy arm."""
         return cells if cells.shape[1] > self.reach.axes else np.concatenate([cells, np.zeros((len(cells), 1))], axis=1)
 
-    def proved(self, cells: Array) -> tuple[Flags, Array]:
-        """Which of cells of half widths (N, c) are proved, and section boxes (N, m) of these; of others, where that ended."""
-        passed, sections = self._tested(cells, np.array([PARTS - 1.0, PARTS, 1]))
-        return passed == PARTS, sections
+    def proved(self, cells: Array) -> Flags:
+        """Which of cells of half widths (N, c) are proved."""
+        return np.asarray(self._tested(cells, np.array([PARTS - 1.0, PARTS, 1])) == PARTS)
 
     def scale(self, cells: Array, least: Array | None = None) -> Array:
         """(N,) the largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
@@ -212,15 +211,15 @@ class Form:
         ``least`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
         """
         if least is None:
-            return self._tested(cells, np.array([0, PARTS / 2, PARTS / 2]))[0] / PARTS
+            return self._tested(cells, np.array([0, PARTS / 2, PARTS / 2])) / PARTS
         passed = PARTS * least
         more = np.where(passed + 1 < PARTS, 2 ** np.ceil(np.log2(np.maximum(PARTS - 1 - passed, 1))), 0)
         first = np.column_stack([passed, passed + 1, more])
         first[passed == 0] = 0, PARTS / 2, PARTS / 2  # no test passes of cells too small for its margins
-        return self._tested(cells, first)[0] / PARTS
+        return self._tested(cells, first) / PARTS
 
-    def _tested(self, cells: Array, begin: Array) -> tuple[Array, Array]:
-        """(N,) how many sixteenths of cells pass, and the section boxes of the last tests.
+    def _tested(self, cells: Array, begin: Array) -> Array:
+        """(N,) how many sixteenths of cells pass.
 
         ``begin``: How many are known to, how many are tested first, and a power of 2, twice that by which others are more.
         """
@@ -230,7 +229,7 @@ class Form:
         state = np.zeros((len(self.q), r.m + 4))
         state[:, r.m : r.m + 3] = begin
         found = r.expansion.tests.run(state, parameters, 0.5, _STEPS).state
-        return np.nan_to_num(found[:, r.m]), found[:, : r.m]
+        return np.nan_to_num(found[:, r.m])
 
     def worst_axis(self, cells: Array, may: Flags) -> Index:
         """(N,) the axis among those that may (N, c) whose halving leaves least error and least beyond the limits."""

@@ -172,7 +172,7 @@ class Pool:
         halvings, may = np.zeros(half.shape), np.broadcast_to(self._width > 0, half.shape)
         left = np.arange(len(some))
         for _ in range(_ENOUGH):
-            left = left[~form.take(left).proved(half[left])[0]]
+            left = left[~form.take(left).proved(half[left])]
             if not left.size:
                 break
             axis = form.take(left).worst_axis(half[left], may[left])

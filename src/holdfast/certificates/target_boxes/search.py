@@ -191,7 +191,7 @@ class Search:
         targets = centre[:, : self.reach.axes]
         q = self._rounded(self.reach.solved(self.reach.placed(q, centre), targets), centre)
         form = Form.at(self.reach, q, targets)
-        found, _ = form.proved(half)
+        found = form.proved(half)
         part = found.astype(float)
         rest = np.flatnonzero(~found)
         if rest.size:
@@ -202,7 +202,7 @@ class Search:
             above, below, _ = form.sides(half[near], none)
             above, below, _ = form.sides(half[near], np.maximum(above, below))
             moved = self._rounded(self.reach.solved(q[near], targets[near], 3, (below - above) / 2), centre[near])
-            good, _ = Form.at(self.reach, moved, targets[near]).proved(half[near])
+            good = Form.at(self.reach, moved, targets[near]).proved(half[near])
             q[near[good]], found[near[good]], part[near[good]] = moved[good], True, 1.0
         return q, found, part
 
