@@ -144,12 +144,12 @@ class Loop:
             return
         columns, out, step = self._stage(*batch.inputs(left))
         state, after, residual = columns[:size], out[:size], out[-1, : left.size]  # views are made once, not in each step
-        begun, waiting = np.zeros(left.size, dtype=np.int64), np.full(left.size, tolerance)  # when rows came; NaN: none waits
+        begun, wanted = np.zeros(left.size, dtype=np.int64), np.full(left.size, tolerance)  # when rows came; NaN: gone
         # Steps taken where a residual is measured, and of how many was told; when a row gives up, or this is to be told.
         now, last, told = int(ahead), min(batch.most_steps, _STRETCH), 0
         while True:
             step()
-            small = residual <= waiting
+            small = residual <= wanted
             if now < last and not np.count_nonzero(small):  # a few rows may take many steps: nothing else is done for them
                 state[...] = after
                 now += 1
@@ -174,14 +174,14 @@ class Loop:
                 columns[:, places] = np.concatenate(batch.inputs(fresh))
                 left[places], begun[places] = fresh, now + (not ahead)
             if gone.size:
-                waiting[gone], begun[gone] = np.nan, _NEVER
+                wanted[gone], begun[gone] = np.nan, _NEVER
                 still = (begun < _NEVER).nonzero()[0]
                 if not still.size:
                     return
                 if 4 * still.size <= 3 * left.size:
                     # No rows are left to take: a batch that shrinks is cheaper.
                     columns, out, step = self._stage(columns.take(still, axis=1))
-                    left, begun, waiting = left[still], begun[still], waiting[still]
+                    left, begun, wanted = left[still], begun[still], wanted[still]
                     state, after, residual = columns[:size], out[:size], out[-1, : left.size]
             now += 1
             last = min(int(begun.min()) + batch.most_steps, told + _STRETCH)
