@@ -150,6 +150,19 @@ def test_what_was_given_up_is_looked_at_once_more(panda, monkeypatch):
     assert 0 < once.undecided < 1e-6
 
 
+@pytest.mark.parametrize(("lock", "most"), [(None, 60), (9, 800)])
+def test_cubes_of_poses_of_a_nine_joint_arm_take_few_boxes(lock, most):
+    """Most of its configurations prove little: where the pool begins decides between hundreds of boxes and thousands."""
+    arm = hf.arms.load("pa10-9dof")
+    degrees = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 40), (16, 56), (-40, 40)]
+    ranges = dict(zip(arm.joint_names, np.radians(degrees).tolist(), strict=True))
+    within = {"limits": ranges} if lock is None else {"locked": {lock - 1: ranges[arm.joint_names[lock - 1]]}}
+    turn = Rotation.from_euler("y", 174, degrees=True).as_matrix()
+    proof = hf.certify(reach_claim(arm, [0.968, 0, 0.025], 0.05, rotation=turn, **within))
+    assert float(proof.proved) == 1
+    assert proof.leaves <= most
+
+
 def test_a_pose_is_tolerant_of_a_lock(panda, tmp_path):
     tip = panda.forward_kinematics(START)
     ranges = {k: (x - 0.02, x + 0.02) for k, x in enumerate(START)}

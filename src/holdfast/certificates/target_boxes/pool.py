@@ -13,10 +13,10 @@ from holdfast.certificates.taylor import Form, Reach
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-_TARGETS, _MOST, _STARTS = 250, 1000, 12  # targets at first and at most, and random starts of each
+_TARGETS, _MOST, _STARTS = 250, 1000, 10  # targets at first and at most, and random starts of each
 _EACH = 64  # cells for each target: where there are more, there are more targets
 _STRIDE = 0.5  # along self-motions, rad
-_CLIMB, _BEST, _WIDER = 6, 15, 2.0  # such steps, of the best more, to prove more of cells so many times wider than without,
+_CLIMB, _BEST, _WIDER = 10, 30, 2.0  # such steps, of the best more, to prove more of cells so many times wider than without,
 _MUCH, _WIDTHS = 0.75, (2.0**-10, 2.0**10)  # or twice as wide after so much of them is, in such a range
 _ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
 _TRIED = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
