@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 
-def wait_for(page, condition, seconds=20.0):
+def wait_for(page, condition, seconds=60.0):
     """Let the page live until a condition holds."""
     end = time.monotonic() + seconds
     while not condition():
