@@ -33,7 +33,7 @@ _MADE: list[str] = []
 PAGES = ("tests/report/", "tests/present/", "tests/assessment/", "tests/teleop/test_analysis.py", "tests/test_papers")
 _LAID_OUT = [True]
 # Solvers that are kept for an arm. Built-in arms are the same objects in every test, so one that was made on CasADi's machine
-# would serve later tests too, and differ in the last bits from what these compile.
+# would serve later tests too, and differ in the last bits from what these compile; so would kernels that the arms keep.
 _KEPT = {"solvers.inverse_kinematics": "_solver", "solvers.self_motions": "_tracer", "reach.extrema": "_critical"}
 _INTERPRETED = [False]
 
@@ -70,15 +70,19 @@ def pytest_runtest_protocol(item):
     # Matplotlib takes as long to lay a figure out as to draw it; where pages are not the subject nobody looks at the layout.
     _LAID_OUT[:] = [item.nodeid.startswith(PAGES) and item.get_closest_marker("rough") is None]
     if _INTERPRETED[0] and item.get_closest_marker("interpreted") is None and "HOLDFAST_BACKEND" not in os.environ:
-        _forget_kept_solvers()
+        _forget_what_arms_keep()
     return (yield)
 
 
-def _forget_kept_solvers() -> None:
+def _forget_what_arms_keep() -> None:
     _INTERPRETED[:] = [False]
     for module, name in _KEPT.items():
         if (found := sys.modules.get(f"holdfast.{module}")) is not None:
             getattr(found, name).cache_clear()
+    for name in arms.names():
+        arm = arms.load(name)
+        for kept in vars(arm).keys() - arm.__getstate__().keys():
+            del vars(arm)[kept]
 
 
 def _lay_out_where_pages_are_the_subject() -> None:

@@ -31,7 +31,6 @@ def untimed(tmp_path):
 
 @pytest.fixture(scope="module")
 def expected():
-    hf.arms.load.__wrapped__.cache_clear()  # what other tests used may have kernels of another backend, which round otherwise
     arm = hf.arms.load("planar-3r")
     torque = susceptibility.torque(arm, "worst-case")
     return hf.follow(arm, TimedPath(line(FIRST, LAST), Trapezoid(4.0)), minimise=torque, task="planar", samples=41)

@@ -298,7 +298,7 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
     box = page.get_by_role("textbox").first
     box.fill("25")
     box.press("Enter")
-    wait_for(page, lambda: window.updates > before and abs(window.q[0] - np.radians(25)) < 1e-6, 60)
+    wait_for(page, lambda: window.updates > before and abs(window.q[0] - np.radians(25)) < 1e-6)
     assert not given_up.is_set()
     window.ask("best-worst")  # newer: the older one gives way
     assert window.settle(60)

@@ -110,7 +110,7 @@ def watching(browser, folder):
     button = page.get_by_role("button", name="Move, fail and watch")
     wait_for(page, button.is_enabled)
     button.click()
-    wait_for(page, lambda: window.watched is not None, 60)
+    wait_for(page, lambda: window.watched is not None)
     window.ask("time", 1.6)
     wait_for(page, lambda: page.locator(".hf-watch[data-alarm]").count() == 1)
     take(page, window, "Watch", folder / "panda-watch.png", down_to=".hf-watch li")
