@@ -103,14 +103,15 @@ def random_record(arm, rng, wrong):
         tau[onset:, i] += rng.uniform(2, 9) * np.tanh(rates[onset:, i] / 0.02)
     elif wrong == 4:  # its sensor drifts, or jumps
         told[onset:, i] += rng.choice([0.0, 0.02]) + rng.uniform(0, 0.3) * after
-    elif wrong in (5, 7):  # a push at the tool, or at the far end of a link
+    elif wrong in (5, 7, 9):  # a push at the tool, or at the far end of a link; in the third a reference goes on alone
         last = n - 1 if wrong == 5 else int(rng.integers(n))
         frames, jacobian = arm.frames(true[onset:]), arm.jacobian(true[onset:])[:, :, : last + 1]
         arms = (frames[:, last + 2, :3, 3] - frames[:, -1, :3, 3])[:, None]  # from the tool to there
         at = jacobian[:, :3].transpose(0, 2, 1) + np.cross(jacobian[:, 3:].transpose(0, 2, 1), arms)
         tau[onset:, : last + 1] -= at @ rng.normal(0, 30, 3)
+        reference[onset:, last] += (wrong == 9) * rng.uniform(0, 6) * after
     elif wrong == 8:  # a push along its motion that the first joint alone feels
-        tau[onset:, 0] -= rng.uniform(6, 12) * np.sign(rates[onset:, 0].mean())
+        tau[onset:, 0] -= rng.uniform(6, 60) * np.sign(rates[onset:, 0].mean())
     elif wrong == 6:  # samples are missing, some in a row: bridged, then for so long that it begins anew
         told[rng.integers(0, CYCLES, 6)] = np.nan
         told[onset : onset + rng.integers(1, 40)] = np.nan
@@ -195,7 +196,7 @@ def compared(arm, program, count, rng, bounds, *, node=False):
     """The largest difference in units of what is compared, verdicts that differ, and kinds that were named; in Node too."""
     monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds, sensors=SENSORS), 0.0, 0, set()
     n = arm.n
-    records = [random_record(arm, rng, k % 9) for k in range(count)]  # each of what can be wrong
+    records = [random_record(arm, rng, k % 10) for k in range(count)]  # each of what can be wrong
     ours = [said_by_python(monitor, record) for record in records]
     pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
     for record, one in zip(records, ours, strict=True):

@@ -123,8 +123,7 @@ class Decision:
         i, bounds = int(self._size.argmax()), self._bounds
         both, healthy = (float(bounds.torque[i]), float(bounds.tracking[i])), float(bounds.torque[i] / bounds.factor)
         dry = float(bounds.coulomb[i])
-        half = (self._last - self._split) // 2
-        self._kinds = Kinds(i, coulomb=dry, bounds=both, largest=healthy, noise=self._noise, torques=self._torques, half=half)
+        self._kinds = Kinds(i, coulomb=dry, bounds=both, largest=healthy, noise=self._noise, torques=self._torques)
 
     def verdict(self, *, last: bool = False) -> Verdict:
         """What is known now.
@@ -134,7 +133,7 @@ class Decision:
         """
         if self._suspect and (self.count >= self._split or last):
             return self._sensor()
-        if self.push > PUSHED:
+        if self.push > PUSHED and not (self._kinds is not None and self._kinds.lost):
             reason = ("a force on a link explains all rows",)
             return Verdict(True, self._time, kind="contact", candidates=("contact",), evidence=reason)
         if self._kinds is None:

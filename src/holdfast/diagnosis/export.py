@@ -142,11 +142,9 @@ def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
         "MOST": kinds.CARRIED[1],
     }
     values |= {name: getattr(decision, name) for name in ("UNSURE", "SUSPECT", "WORSE", "PUSHED")}
-    values |= {
-        name: getattr(kinds, name) for name in ("SCALE", "STILL", "PART", "TIMES", "ALL", "AWAY", "GROWN", "STEADY", "DRIVEN")
-    }
+    thresholds = ("SCALE", "STILL", "PART", "TIMES", "ALL", "MORE", "AWAY", "LOST", "GROWN", "DRIVEN")
+    values |= {name: getattr(kinds, name) for name in thresholds}
     named = {name: str(cycles(seconds, dt)) for name, seconds in times.items()}
-    named["HALF"] = str((int(named["LAST"]) - int(named["SPLIT"])) // 2)
     named |= {name: number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
     named_kinds = ", ".join(map(quoted, _KINDS))

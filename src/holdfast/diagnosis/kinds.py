@@ -9,11 +9,12 @@ import numpy as np
 
 STILL, PART, NOISY = 2e-3, 0.15, 12.0  # rad or m; of the reference's travel; deviations of the sensor
 ALL, CARRIED = 0.93, (0.8, 1.2)  # losses: of the whole motor; that friction may hide
+MORE = 1.1  # of a motor's torque: no fault of its own takes so much
 TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
 AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none
+LOST = 20.0  # likewise: a push leaves a joint to its servo, which holds it nearer
 SCALE = 0.25  # of its torque bound: a deviation of the residual
 GROWN = 10.0  # of dry friction: it is not believed to grow by more
-STEADY = 0.25  # of the first half of a residual: so much does the second half differ at most where a push is steady
 DRIVEN = 0.5  # of dry friction: what a joint needs to move as it does; if it drives itself by nothing, it needs nothing
 
 
@@ -57,18 +58,16 @@ class Kinds:
         largest: Of a healthy arm's residual torques on this joint, N m or N.
         noise: Deviation of its sensor, rad or m.
         torques: Whether torques are watched.
-        half: Cycles, half of those that are told.
     """
 
     def __init__(
-        self, joint: int, *, coulomb: float, bounds: tuple[float, float], largest: float, noise: float, torques: bool, half: int
+        self, joint: int, *, coulomb: float, bounds: tuple[float, float], largest: float, noise: float, torques: bool
     ) -> None:
         self.joint, self._coulomb, self._bounds, self._noise, self._torques = joint, coulomb, bounds, noise, torques
-        self._half, self._first, self._whole, self._latest, self._ts = half, 0.0, 0.0, 0.0, 0.0
         self._count, self._behind, self._largest, self._sum = 0, 0.0, largest, 0.0
         self._q, self._reference = [np.inf, -np.inf], [np.inf, -np.inf]
         self._asked, self._least = 0.0, np.inf
-        self._rr = self._rt = self._rs = self._tt = self._ss = 0.0
+        self._rr = self._rt = self._rs = self._tt = self._ts = self._ss = 0.0
 
     def add(self, q: float, reference: float, slip: float, torques: tuple[float, float, float]) -> None:
         """A cycle.
@@ -86,15 +85,18 @@ class Kinds:
         self._asked, self._least = max(self._asked, abs(torque - gravity)), min(self._least, abs(gravity))
         self._rr, self._rt, self._rs = self._rr + r * r, self._rt + r * torque, self._rs + r * slip
         self._tt, self._ss, self._sum = self._tt + torque * torque, self._ss + slip * slip, self._sum + abs(torque)
-        self._latest, self._whole, self._ts = abs(r), self._whole + r, self._ts + torque * slip
-        if self._count <= self._half:
-            self._first = self._whole
+        self._ts += torque * slip
+
+    @property
+    def lost(self) -> bool:
+        """Whether it is further from its reference than a push moves a joint that has its motor."""
+        return self._behind > LOST * self._bounds[1]
 
     def named(self, unit: str, unless_seen: tuple[str, ...]) -> dict[str, Any]:
         """Kind, loss, candidates and evidence.
 
-        A motor that gives nothing lets its joint go: the joint moves as free joints do, which needs no torque, and its servo
-        asks for more and more. One that follows, steadily, and needs a torque to move as it does, has been pushed.
+        A motor can lose all that it is asked for and no more. A joint that follows against its motor, and needs a torque to
+        move as it does, has been pushed.
 
         Args:
             unit: Of the joint.
@@ -125,19 +127,17 @@ class Kinds:
         if not min(by_loss, by_drag) < 0.5 * self._rr:
             return verdict("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *unless_seen))
         follows = self._behind < self._bounds[1]
-        held = follows and abs(self._whole - 2 * self._first) < STEADY * abs(self._first)
-        over = follows and self._latest < self._bounds[0]
         driven = self._rs + self._ts > DRIVEN * self._coulomb * self._ss > 0
         worse = (by_drag - by_loss) / (self._count * (SCALE * self._bounds[0]) ** 2)
         if abs(worse) < 1 and (drag <= GROWN * self._coulomb or self._coulomb == 0):
-            alike = "a weak motor, more friction and a push" if held else "a weak motor and more friction"
+            alike = "a weak motor, more friction and a push" if follows else "a weak motor and more friction"
             evidence.append(f"{alike} explain its torque alike")
-            return verdict("sluggish", ("weak", "friction", *["contact"] * held), loss)
-        if (held and drag > GROWN * self._coulomb > 0) if worse < 0 else ((held or over) and driven and loss > ALL):
-            evidence.append("it follows, and no fault of its own would let it: something pushed it")
-            return verdict("contact", ("contact",))
+            return verdict("sluggish", ("weak", "friction", *["contact"] * follows), loss)
         if worse < 0:
             return verdict("friction", ("friction",))
+        if follows and driven and loss > MORE:
+            evidence.append("it follows against its motor: something pushed it")
+            return verdict("contact", ("contact",))
         if loss > ALL or (loss > CARRIED[0] and self._behind > AWAY * self._bounds[1]):
             return verdict("limp", ("limp",) if loss > ALL else ("limp", "weak"), loss)
         return verdict("weak", ("weak",), loss)

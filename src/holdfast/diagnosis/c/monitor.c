@@ -174,9 +174,6 @@ static void follow(NAME_state *s, const double *q, const double *reference, cons
         s->tt += low * low;
         s->ss += slip * slip;
         s->ts += low * slip;
-        s->latest = fabs(r);
-        s->whole += r;
-        if (s->some <= CONST_HALF) s->first = s->whole;
     }
 }
 
@@ -210,14 +207,14 @@ static void explain(NAME_state *s, double w, const double residual[6], const dou
 }
 
 static void decide(NAME_state *s) {
-    int i = s->joint, still, follows, held, driven;
+    int i = s->joint, still, follows, driven;
     double travel, wanted, loss, drag, by_loss, by_drag, worse;
     if (s->count < CONST_SPLIT) return;
     if (s->suspect) {
         answer(s, s->told >= 0 && s->gap > CONST_WORSE ? s->told : -1, GUARD_SENSOR, -1);
         return;
     }
-    if (s->push > CONST_PUSHED) {
+    if (s->push > CONST_PUSHED && !(s->behind > CONST_LOST * tracking_bound[i])) {
         answer(s, -1, GUARD_CONTACT, -1);
         return;
     }
@@ -237,7 +234,6 @@ static void decide(NAME_state *s) {
     by_loss = s->tt > 0 ? s->rr + 2 * loss * s->rt + loss * loss * s->tt : HUGE_VAL;
     by_drag = s->rr + 2 * drag * s->rs + drag * drag * s->ss;
     follows = s->behind < tracking_bound[i];
-    held = follows && fabs(s->whole - 2 * s->first) < CONST_STEADY * fabs(s->first);
     driven = coulomb[i] > 0 && s->rs + s->ts > CONST_DRIVEN * coulomb[i] * s->ss;
     worse = (by_drag - by_loss) / ((double)s->some * (CONST_SCALE * torque_bound[i]) * (CONST_SCALE * torque_bound[i]));
     if (still && s->asked >= CONST_TIMES * coulomb[i]) {
@@ -249,11 +245,10 @@ static void decide(NAME_state *s) {
         answer(s, i, GUARD_UNKNOWN, -1);
     } else if (fabs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] == 0)) {
         answer(s, i, GUARD_SLUGGISH, loss);
-    } else if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i]
-                         : driven && loss > CONST_ALL && (held || (follows && s->latest < torque_bound[i]))) {
-        answer(s, -1, GUARD_CONTACT, -1);
     } else if (worse < 0) {
         answer(s, i, GUARD_FRICTION, -1);
+    } else if (follows && driven && loss > CONST_MORE) {
+        answer(s, -1, GUARD_CONTACT, -1);
     } else if (loss > CONST_ALL || (loss > CONST_LEAST && s->behind > CONST_AWAY * tracking_bound[i])) {
         answer(s, i, GUARD_LIMP, loss);
     } else {
@@ -268,7 +263,7 @@ void NAME_rearm(NAME_state *s) {
         s->left[k] = s->out[k] ? HUGE_VAL : 0;
     }
     s->over_w = s->gap = s->lowest = s->highest = s->wanted_low = s->wanted_high = s->asked = s->least = s->behind = 0;
-    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->ts = s->latest = s->whole = s->first = s->verdict.time = 0;
+    s->rr = s->rt = s->rs = s->tt = s->ss = s->push = s->ts = s->verdict.time = 0;
     s->count = s->poses = s->some = 0;
     s->alarmed = s->torques = s->tool = s->suspect = s->verdict.alarm = 0;
     s->joint = s->told = -1;

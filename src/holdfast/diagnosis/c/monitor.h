@@ -38,7 +38,7 @@ typedef struct {
     double past[GUARD_LATE + 1][COUNT], felt[COUNT];
     double q[COUNT], reference[COUNT], p[COUNT], gravity[COUNT], torque[COUNT], low[COUNT], last[5][6];
     double size[COUNT], residual[COUNT], left[COUNT], gap;
-    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss, ts, latest, whole, first, push;
+    double lowest, highest, wanted_low, wanted_high, asked, least, behind, rr, rt, rs, tt, ss, ts, push;
     NAME_verdict verdict;
 } NAME_state;
 

@@ -39,7 +39,7 @@ export class Monitor {
     rearm() {
         for (const name of ["overZ", "overY", "size", "residual", "left"]) this[name] = new Float64Array(N);
         for (const name of ["overW", "gap", "lowest", "highest", "wantedLow", "wantedHigh", "asked", "least", "behind"]) this[name] = 0;
-        for (const name of ["rr", "rt", "rs", "tt", "ss", "ts", "latest", "whole", "first", "count", "poses", "some", "push"]) this[name] = 0;
+        for (const name of ["rr", "rt", "rs", "tt", "ss", "ts", "count", "poses", "some", "push"]) this[name] = 0;
         this.alarmed = this.torques = this.tool = this.suspect = false;
         this.joint = this.told = -1;
         this.verdict = {alarm: false, time: 0, joint: -1, kind: UNKNOWN, loss: -1};
@@ -235,9 +235,6 @@ export class Monitor {
             this.tt += low * low;
             this.ss += slip * slip;
             this.ts += low * slip;
-            this.latest = Math.abs(r);
-            this.whole += r;
-            if (this.some <= CONST_HALF) this.first = this.whole;
         }
     }
 
@@ -270,7 +267,7 @@ export class Monitor {
         const i = this.joint;
         if (this.count < CONST_SPLIT) return;
         if (this.suspect) return this.#answer(this.told >= 0 && this.gap > CONST_WORSE ? this.told : -1, SENSOR, -1);
-        if (this.push > CONST_PUSHED) return this.#answer(-1, CONTACT, -1);
+        if (this.push > CONST_PUSHED && !(this.behind > CONST_LOST * trackingBound[i])) return this.#answer(-1, CONTACT, -1);
         if (this.count < CONST_LAST) return this.#answer(i, UNKNOWN, -1);
         const travel = this.highest - this.lowest, wanted = this.wantedHigh - this.wantedLow;
         const still = travel < CONST_STILL && travel < CONST_PART * wanted + CONST_NOISE;
@@ -285,12 +282,10 @@ export class Monitor {
         }
         if (!(tt > 0) || !(Math.min(byLoss, byDrag) < 0.5 * rr)) return this.#answer(i, UNKNOWN, -1);
         if (Math.abs(worse) < 1 && (drag <= CONST_GROWN * coulomb[i] || coulomb[i] === 0)) return this.#answer(i, SLUGGISH, loss);
-        const follows = this.behind < trackingBound[i], over = follows && this.latest < torqueBound[i];
-        const held = follows && Math.abs(this.whole - 2 * this.first) < CONST_STEADY * Math.abs(this.first);
+        const follows = this.behind < trackingBound[i];
         const driven = coulomb[i] > 0 && rs + this.ts > CONST_DRIVEN * coulomb[i] * ss;
-        if (worse < 0 ? held && coulomb[i] > 0 && drag > CONST_GROWN * coulomb[i] : driven && loss > CONST_ALL && (held || over))
-            return this.#answer(-1, CONTACT, -1);
         if (worse < 0) return this.#answer(i, FRICTION, -1);
+        if (follows && driven && loss > CONST_MORE) return this.#answer(-1, CONTACT, -1);
         if (loss > CONST_ALL || (loss > CONST_LEAST && this.behind > CONST_AWAY * trackingBound[i])) return this.#answer(i, LIMP, loss);
         return this.#answer(i, WEAK, loss);
     }
