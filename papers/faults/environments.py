@@ -119,7 +119,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 ABOUT = f"""Written by `python -m papers.faults.environments NAMES`, which adds a table; everything is **simulated**. A joint
 fails after 0.1 s, then {STEPS} steps at random actions over their whole range; the worst of up to eight joints: how far it is
 off where it locked, what its motors give at most, and whether every number of the model is as before. Robosuite pins an older
-MuJoCo, so it has an environment of its own. Fetch and Kitchen of Gymnasium-Robotics 1.4.2 do not run on MuJoCo 4.
+MuJoCo, so it has an environment of its own. Kitchen of Gymnasium-Robotics 1.4.2 does not run on MuJoCo 4. Joints of
+its Fetch have no motors: the hand is dragged to where it is told to go.
 """
 
 if __name__ == "__main__":
