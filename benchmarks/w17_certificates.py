@@ -18,7 +18,6 @@ CENTRE = [0.485, 0.0, 0.53]
 RANGES = [(-45, 45), (-60, 45), (-45, 45), (-118, -103.5), (-90, 90), (50, 145), (-90, 90)]  # deg, of the joints of a Panda
 POSES, ROTATION = [0.968, 0.0, 0.025], 174  # m; deg about y
 START = [-35, -45, 51, -111, -46, 84, -3]  # deg, of a Panda: where its paths begin
-NINE = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 40), (16, 56), (-40, 40)]  # deg
 
 
 def panda():
@@ -65,6 +64,7 @@ def proofs(chosen: argparse.Namespace) -> str:
 
 def poses(chosen: argparse.Namespace) -> str:
     """A cube of poses with a fixed rotation."""
+    from rivals import NINE
     from scipy.spatial.transform import Rotation
 
     import holdfast as hf

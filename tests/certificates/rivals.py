@@ -10,6 +10,8 @@ import numpy as np
 from holdfast.certificates.taylor import Form, Reach
 
 WIDE = 1e3  # rad: limits that are none
+# deg: working ranges of a PA10 with nine joints, for the cube of poses that is claimed of it
+NINE = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 40), (16, 56), (-40, 40)]
 
 
 def sampled(claim, budget):

@@ -6,6 +6,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from fuzzed import Claimed
+from rivals import NINE
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
@@ -154,8 +155,7 @@ def test_what_was_given_up_is_looked_at_once_more(panda, monkeypatch):
 def test_cubes_of_poses_of_a_nine_joint_arm_take_few_boxes(lock, most):
     """Most of its configurations prove little: where the pool begins decides between hundreds of boxes and thousands."""
     arm = hf.arms.load("pa10-9dof")
-    degrees = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 40), (16, 56), (-40, 40)]
-    ranges = dict(zip(arm.joint_names, np.radians(degrees).tolist(), strict=True))
+    ranges = dict(zip(arm.joint_names, np.radians(NINE).tolist(), strict=True))
     within = {"limits": ranges} if lock is None else {"locked": {lock - 1: ranges[arm.joint_names[lock - 1]]}}
     turn = Rotation.from_euler("y", 174, degrees=True).as_matrix()
     proof = hf.certify(reach_claim(arm, [0.968, 0, 0.025], 0.05, rotation=turn, **within))
