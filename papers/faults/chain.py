@@ -183,7 +183,7 @@ def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
         f"{len(late)} of {len(rows)} were noticed, {early} alarms came before the fault; the joint was right in "
         f"{sum(row['joint right'] for row in late)}; {sum(row['wrong brake'] for row in rows)} times a joint that had no fault "
         f"was braked. {sum(row['planned'] for row in rows)} times the chain planned a route; in "
-        f"{sum(row['alarms'] > 1 for row in rows)} of them something else alarmed after the first alarm.",
+        f"{sum(row['alarms'] > 1 for row in rows)} of {len(rows)} runs something else alarmed after the first alarm.",
         f"False alarms in the same runs without a fault: {sum(row['false alarm'] for row in rows)} in "
         f"{sum(row['hours'] for row in rows):.3g} h. Bounds are those of {robots} other robots, a healthy run each, times 1.5.",
     ]

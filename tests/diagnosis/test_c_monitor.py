@@ -22,7 +22,7 @@ def test_c_and_javascript_say_what_python_says(rng, tmp_path):
     worst, unlike, named = c_monitor.compared(arm, c_monitor.built(arm, bounds, tmp_path), 20, rng, bounds, node=True)
     assert worst <= c_monitor.TOLERANCE
     assert unlike == 0
-    assert len(named) > 2  # of 20 records, whatever the seed: 3 to 6
+    assert len(named) > 2  # of 20 records, whatever the seed: 5 to 8 for each of 16
 
 
 @needs_compiler
