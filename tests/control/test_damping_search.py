@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import ctypes
+import shutil
+import subprocess
+
 import casadi as ca
 import damping_oracle
 import numpy as np
@@ -94,3 +98,62 @@ def test_the_peak_error_that_is_written_down_once_is_the_one_of_every_call():
     error = damping_search._PeakError(squares, c, products, columns, missing)
     one, other = (Program("error", [s, missing, *sizes], [ca.vertcat(*found)]) for found in (error(s), error._written(s)))
     assert one.digest == other.digest
+
+
+def search_in_c(folder, m, n, allowed):
+    """What the search in C tells of J (m, n) and v (m,): rates (n,), damping, largest damping and whether one is allowed."""
+    source, library = folder / "search.c", folder / f"search{m}{n}.so"
+    call = "void call(const double *j, const double *v, double *out)"
+    text = damping_search.in_c(m, n, allowed)
+    ends = f"{call};\n{call} {{ inverse(j, v, out, out + {n}, out + {n + 1}, out + {n + 2}); }}\n"
+    source.write_text(f"#include <math.h>\n{text}\n{ends}")
+    flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off", "-fsanitize=undefined"]
+    done = ["-fno-sanitize-recover=all", "-shared", "-fPIC", str(source), "-o", str(library), "-lm"]
+    subprocess.run(["cc", *flags, *done], check=True, timeout=60)
+    function = ctypes.CDLL(str(library)).call
+
+    def run(j, v):
+        out = np.full(n + 3, np.nan)
+        function(*[np.ascontiguousarray(x).ctypes.data_as(ctypes.c_void_p) for x in (j, v, out)])
+        return out
+
+    return run
+
+
+def jacobians(rng, m, n):
+    """Well-conditioned ones, columns of joints that no longer follow, almost singular and singular ones, and none at all."""
+    for _ in range(60):
+        yield rng.normal(size=(m, n))
+    for _ in range(20):
+        yield rng.normal(size=(m, n)) * (rng.random(n) > 0.3)
+    for far in (1e-3, 1e-6, 1e-9, 0.0):
+        for _ in range(5):
+            left, right = rng.normal(size=(m, m)), rng.normal(size=(m, n))
+            yield left @ (np.append(np.ones(m - 1), far)[:, None] * right)
+    yield np.zeros((m, n))
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler (cc) on this machine")
+@pytest.mark.parametrize(("m", "n"), [(1, 1), (1, 3), (2, 3), (3, 4), (3, 7), (4, 8), (5, 7), (6, 6), (6, 7), (6, 9)])
+def test_in_c_it_finds_what_the_kernel_finds(m, n, rng, tmp_path):
+    """Where two dampings are as good as each other rounding chooses: then the peak error says whether both are right."""
+    allowed = 0.4
+    run = search_in_c(tmp_path, m, n, allowed)
+    j, v = ca.SX.sym("j", m, n), ca.SX.sym("v", m)
+    size = ca.sqrt(ca.sumsqr(v))
+    found = damping_search.search(j, v / size, allowed)
+    told = [size * ca.vertcat(*found.rates), found.damping, found.largest, found.feasible]
+    kernel = ca.Function("search", [j, v], [ca.vertcat(*told)], {"cse": True})
+    others = 0
+    for matrix in jacobians(rng, m, n):
+        along = rng.uniform(0.1, 3) * rng.normal(size=m)
+        got, expected = run(matrix, along), np.array(kernel(matrix, along)).ravel()
+        assert got[n + 2] == expected[n + 2]
+        np.testing.assert_allclose(got[n + 1], expected[n + 1], rtol=1e-6)  # a singular value of 1e-9 is known to 1e-7
+        if np.abs(got[:n] - expected[:n]).max() > 1e-6 * np.abs(expected[:n]).max():
+            others += 1
+            u = along / np.linalg.norm(along)
+            ours, theirs = (damping_oracle.errors(matrix, u, x[:n] / np.linalg.norm(along))[0].max() for x in (got, expected))
+            assert ours == pytest.approx(theirs, rel=1e-6)
+        assert (run(matrix, np.zeros(m)) == [*np.zeros(n + 2), 1]).all()
+    assert others <= 6 or n == 1  # one joint: every damping is as good

@@ -98,7 +98,8 @@ def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
         code, got, told = call(q[k], v[k])
         size = np.abs(rates[k]).max()
         assert code == 0
-        np.testing.assert_allclose([*got, *told], ours[k], rtol=0, atol=1e-15 * size)
+        if not others:  # that law is written in C by hand
+            np.testing.assert_allclose(got, ours[k], rtol=0, atol=1e-15 * size)
         np.testing.assert_allclose(got, rates[k], rtol=0, atol=1e-11 * size)  # the virtual machine divides each time
         np.testing.assert_allclose(got, compiled_here[k], rtol=0, atol=1e-7 * (1 + size**2))
         if others:
@@ -142,12 +143,9 @@ def planar_jacobian(q):
 TASKS = [("planar-3r", "planar", 2), ("panda", "position", 3), ("panda", "pointing", 5), ("panda", "pose", 6)]
 
 
-# A C compiler takes as long for the failure-tolerant law as for all others.
-WITH_LAWS = [(slug, *each) for slug in LAWS for each in TASKS if slug != "failure-tolerant" or each[1] != "pointing"]
-
-
 @needs_compiler
-@pytest.mark.parametrize(("slug", "name", "task", "m"), WITH_LAWS)
+@pytest.mark.parametrize(("name", "task", "m"), TASKS)
+@pytest.mark.parametrize("slug", LAWS)
 def test_c_agrees_with_numpy_formulas_over_a_jacobian_of_pinocchio(slug, name, task, m, rng, tmp_path):
     """Nothing of holdfast on the other side: the Jacobian is Pinocchio's, or a plane's, and the laws are formulas in NumPy."""
     panda = hf.Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8")
@@ -289,7 +287,7 @@ def test_the_second_export_builds_no_graph(tmp_path, monkeypatch):
     def never(*_):
         raise AssertionError("built again")
 
-    monkeypatch.setattr(hf.control.FailureTolerant, "outputs", never)
+    monkeypatch.setattr(hf.control.FailureTolerant, "jacobian", never)
     assert written("second") == first
     with pytest.raises(AssertionError, match="built again"):
         written("named", name="another")

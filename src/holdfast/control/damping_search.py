@@ -16,17 +16,21 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9). The search 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import casadi as ca
 
 from holdfast.caching import cached_property
+from holdfast.control.c_functions import filled
+from holdfast.kernels import c_backend
 from holdfast.kernels.program import SX
 from holdfast.linalg import Vector, dot, gram, singular_rows, smallest, solve_spd
 
 SINGULAR = 1e-12  # of the largest singular value: at most this counts as 0
 FLOOR = 1e-3  # damping where none is allowed, in the unit of the singular values
 _SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # of Jacobi rotations, by m: to rounding (measured)
+_ORTHOGONAL = 1e-13  # in C a cosine between two rows that is less is 0
+_CONVERGED = 1e-8  # in C so are all of the next sweep, if those of this one were less
 _BISECTIONS, _NEWTON = 6, 4  # for the largest damping: to rounding (measured)
 _EDGE = 0.05  # of a cell: the next point keeps this far from its ends
 _SMOOTH = 0.02  # of a cell: tangents that meet this close to its middle belong to a parabola rather than to a kink
@@ -82,6 +86,58 @@ def search(j: SX, u: SX, allowed: SX | float) -> Choice:
     s = ca.if_else(feasible, _minimise(error, largest, m), FLOOR**2)
     end = ca.if_else(feasible, largest, FLOOR**2)
     return Choice(ca.sqrt(s), ca.sqrt(end), ca.if_else(feasible, 1.0, 0.0), error.rates(s))
+
+
+def in_c(m: int, n: int, allowed: float) -> str:
+    """C99 text of the same search for m rows and n joints, in loops that end where there is nothing left to do.
+
+    ``static void inverse(const double *j, const double *v, double *rates, double *damping, double *largest, double *feasible)``
+    takes J (m, n) row by row and a velocity v (m,) of any norm.
+    """
+    cells, kept, rounds = _grid(m)
+    wide = -(-n // 4) * 4
+    sums = " + ".join(f"f->rows[{k}][i] * r[{k}]" for k in range(m))
+    numbers = {
+        "SWEEPS": _SWEEPS[m],
+        "ORTHOGONAL": _ORTHOGONAL**2,
+        "CONVERGED": _CONVERGED**2,
+        "BISECTIONS": _BISECTIONS,
+        "NEWTON": _NEWTON,
+        "REFINED": rounds,
+        "KEPT": kept,
+        "EDGE": _EDGE,
+        "SMOOTH": _SMOOTH,
+        "ROUGH": _ROUGH,
+        "SAME": _SAME,
+        "FIRST": _FIRST,
+        "SINGULAR": SINGULAR**2,
+        "FLOOR": FLOOR**2,
+        "ALLOWED": allowed**2,
+    }
+    sizes = {"ROWS": m, "JOINTS": n, "WIDE": wide, "CELLS": cells}
+    constants = {
+        f"CONST_{key}": str(x) if isinstance(x, int) else c_backend.number(x) for key, x in {**sizes, **numbers}.items()
+    }
+    pairs = ", ".join(f"{{{a}, {b}}}" for a, b in _pairs(m)) or "{0, 0}"
+    return filled("holdfast.control", "c", "damping_search.c", {**constants, "CONST_PAIRS": pairs, "CONST_SUM": sums})
+
+
+def _pairs(m: int) -> list[tuple[int, int]]:
+    """All pairs of rows, those that do not touch each other one after the other: a processor then need not wait for one."""
+    free, order = [*combinations(range(m), 2)], list[tuple[int, int]]()
+    while free:
+        busy = set[int]()
+        for pair in list(free):
+            if not busy & set(pair):
+                busy |= set(pair)
+                order.append(pair)
+                free.remove(pair)
+    return order
+
+
+def _grid(m: int) -> tuple[int, int, int]:
+    """Cells of the grid for m rows, how many are refined, and in how many rounds."""
+    return (16, 1 if m < 3 else 2, 12) if m <= 3 else (32, 2, 9)
 
 
 def slopes(j: SX, v: SX, allowed: float, found: dict[str, SX], by: SX) -> SX:
@@ -225,7 +281,7 @@ def _largest(squares: Vector, parts: Vector, room: SX) -> SX:
 
 
 def _minimise(error: _PeakError, largest: SX, m: int) -> SX:
-    cells, kept, rounds = (16, 1 if m < 3 else 2, 12) if m <= 3 else (32, 2, 9)
+    cells, kept, rounds = _grid(m)
     # s = first (ratio^k - 1), from 0 to the largest
     first = _larger(_FIRST * smallest(error.squares), 1e-12 * largest)
     first = ca.if_else(first < largest / 3, first, largest / 3)

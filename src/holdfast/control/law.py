@@ -24,6 +24,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.control import deviation, export
+from holdfast.control.c_functions import Function, written
 from holdfast.control.deviation import Deviations
 from holdfast.errors import InputError, TaskError
 from holdfast.frameworks.rows import Differentiable, RowFunction
@@ -53,6 +54,7 @@ class Law(Shown, Labelled, Differentiable, Steps):
         name: For people.
         slug: On the command line and in files.
         source: Paper and equation.
+        others: Names of what :meth:`outputs` tells beside the rates.
 
     Raises:
         TaskError: The task has more rows than the arm has joints.
@@ -62,6 +64,7 @@ class Law(Shown, Labelled, Differentiable, Steps):
     name = ""
     slug = ""
     source = ""
+    others: tuple[str, ...] = ()
 
     @checked
     def __init__(
@@ -119,6 +122,14 @@ class Law(Shown, Labelled, Differentiable, Steps):
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
         """What the law tells of q (n,) and a task velocity v (m,): ``rates`` (n,) first, then what else it computes."""
         return {"rates": self.rates(q, v)}
+
+    def inverse_in_c(self) -> str:
+        """C99 text of ``static void inverse(const double *j, const double *v, double *rates, ...)``.
+
+        J (m, n) row by row and v as of :meth:`inverse`; pointers to :attr:`others` follow the rates.
+        """
+        j, v = ca.SX.sym("j", self.task.m, self.arm.n), ca.SX.sym("v", self.task.m)
+        return written({"inverse": Function({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
 
     # ---- numbers -----------------------------------------------------------------------------------------------
 

@@ -56,6 +56,7 @@ class FailureTolerant(Law):
 
     name, slug = "failure-tolerant inverse", "failure-tolerant"
     source = "Goel et al. 2003, eq. (8), (9)"
+    others = ("damping", "largest_damping", "feasible")
 
     def __init__(
         self,
@@ -86,6 +87,10 @@ class FailureTolerant(Law):
         j, scaled = self.jacobian(q), self.scaled(v)
         found = self._choose(j, scaled)
         return found["rates"], damping_search.slopes(j, scaled, self.pre_failure_error, found, by)
+
+    def inverse_in_c(self) -> str:
+        """See :meth:`Law.inverse_in_c`."""
+        return damping_search.in_c(self.task.m, self.arm.n, self.pre_failure_error)
 
     def _choose(self, j: SX, v: SX) -> dict[str, SX]:
         size = ca.sqrt(ca.sumsqr(v))

@@ -52,7 +52,7 @@ def _sources() -> str:
     h, found = hashlib.sha256(repr(versions("holdfast", "casadi", "numpy")).encode()), False
     for folder, folders, files in os.walk(_PACKAGE):
         folders[:] = sorted(set(folders) - _DRAWING)
-        for name in sorted(file for file in files if file.endswith(".py")):
+        for name in sorted(file for file in files if file.endswith((".py", ".c"))):
             path, found = f"{folder}/{name}", True
             h.update(path[len(str(_PACKAGE)) :].encode())
             with open(path, "rb") as file:  # noqa: PTH123  (pathlib takes as long again)

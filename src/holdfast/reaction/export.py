@@ -118,10 +118,10 @@ def export_controller(
 
 
 def _masked(law: Law) -> str:
-    arm = law.arm
-    q, v, mask = kinematics.joint_symbols(arm), ca.SX.sym("v", law.task.m), ca.SX.sym("mask", arm.n)
-    rates = masked.masked_rates(law, q, v, mask=mask, pull=ca.SX.zeros(arm.n))
-    return written({"masked": Function({"q": q, "v": v, "mask": mask}, {"rates": [rates]})})
+    q, v, mask = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m), ca.SX.sym("mask", law.arm.n)
+    j = law.jacobian(q) @ ca.diag(mask)
+    seen = Function({"q": q, "v": v, "mask": mask}, {"j": [j.T], "scaled": [law.scaled(v)]})
+    return f"{written({'seen': seen})}\n{law.inverse_in_c()}"
 
 
 def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
@@ -162,6 +162,8 @@ def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "COUNT": str(arm.n),
         "HOME": _listed(home),
         "TASK_ROWS": str(law.task.m),
+        "OTHER_DECLARED": "double other;\n        " * bool(law.others),
+        "OTHERS": ", &other" * len(law.others),
         "TASK_FRAME": law.task.frame,
         "TASK_TEXT": "{" + ", ".join(f"{{{_listed(row)}}}" for row in law.task.rows) + "}",
         "CONST_ARRAYS": "".join(f"constexpr double {key}[{arm.n}] = {{{_listed(x)}}};\n" for key, x in arrays.items()),

@@ -10,19 +10,12 @@ from holdfast.arm import kinematics
 from holdfast.arm.task import target_poses
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.solvers.inverse_kinematics import task_error
 
 Array = NDArray[np.float64]
 
 NEAR = 2e-3  # rad or m: a joint so near to its limit is at it, whatever the noise
-
-
-def masked_rates(law: Law, q: SX, v: SX, *, mask: SX, pull: SX) -> SX:
-    """Rates (n,) for a task velocity (m,), m/s and rad/s; ``mask`` and ``pull`` as in :func:`masked_kernel`."""
-    jacobian, wish = law.jacobian(q) @ ca.diag(mask), mask * pull
-    return mask * (law.inverse(jacobian, law.scaled(v) - jacobian @ wish) + wish)
 
 
 @recalled
@@ -36,7 +29,8 @@ def masked_kernel(law: Law) -> Kernel:
     q, mask, pull = kinematics.joint_symbols(arm), ca.SX.sym("mask", arm.n), ca.SX.sym("pull", arm.n)
     place, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     error, _ = task_error(arm, task, q, place, rotation)
-    rates = masked_rates(law, q, law.command(error), mask=mask, pull=pull)
+    jacobian, wish = law.jacobian(q) @ ca.diag(mask), mask * pull
+    rates = mask * (law.inverse(jacobian, law.scaled(law.command(error)) - jacobian @ wish) + wish)
     parts = [ca.norm_2(ca.SX(ca.DM(task.rows[:, some].T)) @ error) for some in (slice(0, 3), slice(3, 6))]
     return Kernel("law with a mask", [q, place, rotation, mask, pull], [ca.vertcat(rates, *parts)])
 
