@@ -75,9 +75,9 @@ REACTIONS = {
     "nobody notices": {"react": "none", "centring": CENTRING},
     "nobody notices, no null-space objective": {"react": "none", "centring": 0.0},
     "everything stops at an alarm": {"react": "stop", "centring": CENTRING},
-    "chain, without a plan": {"react": "chain", "centring": CENTRING, "plan": False},
+    "chain, without recover": {"react": "chain", "centring": CENTRING, "plan": False},
     "chain": {"react": "chain", "centring": CENTRING},
-    "known at once, without a plan": {"react": "known", "centring": CENTRING, "plan": False},
+    "known at once, without recover": {"react": "known", "centring": CENTRING, "plan": False},
 }
 LIMIT, PLANNED_LIMIT = 12.0, 24.0  # s
 
@@ -119,8 +119,8 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     found["hours"] = healthy.time[-1] / 3600
     runs: dict[str, hf.FaultRun] = {}
     for name, options in REACTIONS.items():
-        if name == "chain" and runs["chain, without a plan"].ok:
-            runs[name] = runs["chain, without a plan"]
+        if name == "chain" and runs["chain, without recover"].ok:
+            runs[name] = runs["chain, without recover"]
         else:
             limit = PLANNED_LIMIT if name == "chain" else LIMIT
             watch = monitor if options["react"] in ("stop", "chain") else None
@@ -130,7 +130,7 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
             )
         found[name] = runs[name].ok
     chain = runs["chain"]
-    found["feasible"] = feasible_with(arm, trial, runs["known at once, without a plan"])
+    found["feasible"] = feasible_with(arm, trial, runs["known at once, without recover"])
     found["delay"] = chain.delay if np.isfinite(chain.delay) else None
     named = {verdict.joint for verdict in chain.verdicts if verdict.joint is not None}
     found["named"], found["joint right"] = [verdict.kind for verdict in chain.verdicts], named == {event.joint}
@@ -140,6 +140,7 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     found["braked after"] = None if brake is None else brake - event.onset
     found["alarms"] = len(chain.verdicts)
     found["planned"], found["ended"] = any(a.what == "plan" for a in chain.actions), chain.outcome
+    found["detour"] = any(a.what == "detour" for a in chain.actions)
     found["why"] = chain.actions[-1].sentence() if chain.actions else ""
     if found["delay"] is not None and chain.noticed < chain.time[-1]:
         at = int(np.searchsorted(chain.time, chain.noticed))
@@ -182,7 +183,8 @@ def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
     lines = [
         f"{len(late)} of {len(rows)} were noticed, {early} alarms came before the fault; the joint was right in "
         f"{sum(row['joint right'] for row in late)}; {sum(row['wrong brake'] for row in rows)} times a joint that had no fault "
-        f"was braked. {sum(row['planned'] for row in rows)} times the chain planned a route; in "
+        f"was braked. {sum(row['detour'] for row in rows)} times the chain went by another posture, "
+        f"{sum(row['planned'] for row in rows)} times it planned a route; in "
         f"{sum(row['alarms'] > 1 for row in rows)} of {len(rows)} runs something else alarmed after the first alarm.",
         f"False alarms in the same runs without a fault: {sum(row['false alarm'] for row in rows)} in "
         f"{sum(row['hours'] for row in rows):.3g} h. Bounds are those of {robots} other robots, a healthy run each, times 1.5.",

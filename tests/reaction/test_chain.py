@@ -8,6 +8,7 @@ import pytest
 import holdfast as hf
 from holdfast.errors import HoldfastError, InputError
 from holdfast.faults import FaultEvent
+from holdfast.reaction.detour import postures
 from holdfast.reaction.masked import MaskedLaw
 
 pytest.importorskip("mujoco")
@@ -90,14 +91,62 @@ def test_everything_stops_and_what_is_known_at_once(law, monitor):
     assert known.places[1] == pytest.approx(known.q[500, 1], abs=1e-3)
 
 
-def test_where_the_law_ends_off_its_target_a_route_is_planned_and_followed(law):
+def test_where_the_law_would_end_off_its_target_it_goes_by_another_posture_or_along_a_route(law, monkeypatch):
     start, goal = [-2.05, -0.14, 1.13, -1.12, -0.88, 0.52, 1.94], [-0.125, -0.026, 0.623]
-    faults = [FaultEvent("locked", "panda_joint3", 0.3)]
-    run = hf.simulate_faults(law, start, goal, faults=faults, body=BODY, react="known").require_ok()
-    assert run.actions[-1].what == "plan"
-    assert run.miss[int(1e3 * run.actions[-1].time)] > 0.02  # there the law had ended
-    assert (run.q >= law.arm.lower - 5e-3).all()
-    assert (run.q <= law.arm.upper + 5e-3).all()
+    options = {"faults": [FaultEvent("locked", "panda_joint3", 0.3)], "body": BODY, "react": "known"}
+    detour = hf.simulate_faults(law, start, goal, plan=False, **options).require_ok()
+    assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
+    monkeypatch.setattr("holdfast.reaction.controller.detour", lambda *args, **given: None)
+    alone = hf.simulate_faults(law, start, goal, plan=False, **options)
+    assert (alone.outcome, [a.what for a in alone.actions]) == ("missed", ["alarm", "brake"])
+    assert alone.miss[-1] > 0.02
+    route = hf.simulate_faults(law, start, goal, **options).require_ok()
+    assert [a.what for a in route.actions] == ["alarm", "brake", "plan"]
+    for run in (detour, route):
+        assert (run.q >= law.arm.lower - 5e-3).all()
+        assert (run.q <= law.arm.upper + 5e-3).all()
+
+
+@pytest.mark.parametrize("task", ["position", "pose"])
+def test_a_law_that_is_followed_ahead_ends_where_its_single_steps_do(task, rng):
+    arm = hf.arms.load("iiwa14")
+    law = hf.control.damped(arm, 0.02, task=task, gain=2.0, speed_limit=0.25)
+    most = np.array([joint.velocity for joint in arm.joints])
+    q, ends = rng.uniform(0.9 * arm.lower, 0.9 * arm.upper, (12, arm.n)), []
+    there = arm.forward_kinematics(rng.uniform(0.9 * arm.lower, 0.9 * arm.upper))
+    masked = MaskedLaw(law, there if task == "pose" else there[:3, 3], centring=0.15)
+    masked.mask[2] = 0
+    for row in q:
+        at, takes, nearest, since = row.copy(), np.inf, np.inf, 0.0
+        for time in 0.05 * np.arange(240):
+            rates = masked.rates(at)
+            off = masked.miss + masked.turn
+            nearest, since = (off, time) if off < nearest - 1e-3 else (nearest, since)
+            if off < 2e-3 or time - since > 1.5:
+                takes = time if off < 2e-3 else np.inf
+                break
+            slower = max(1.0, (np.abs(rates) / most).max())
+            at = np.clip(at + 0.05 * rates / slower, arm.lower + 2e-3, arm.upper - 2e-3)
+        ends.append(takes)
+    assert np.isfinite(ends).any()
+    assert np.isinf(ends).any()
+    np.testing.assert_allclose(masked.ahead(q, most=most), ends)
+
+
+def test_postures_of_a_detour_leave_braked_joints_alone_and_a_joint_without_limits_turns_either_way():
+    arm, q = hf.arms.load("kinova-j2s6s200"), np.linspace(1.0, 4.0, 6)
+    mask = np.where(np.arange(6) == 4, 0.0, 1.0)
+    found = postures(arm, q, mask)
+    bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
+    middle = np.array([(low + high) / 2 if np.isfinite(high) else 0.0 for low, high in zip(arm.lower, arm.upper, strict=True)])
+    assert (found[:, 4] == q[4]).all()
+    np.testing.assert_allclose(found[3, bounded & (mask > 0)], middle[bounded & (mask > 0)])
+    moved = [tuple(np.flatnonzero(row != q)) for row in found[4:]]
+    assert moved == [(j,) for j in np.flatnonzero(mask) for _ in range(2)]
+    for one, other in zip(found[4::2], found[5::2], strict=True):
+        (j,) = np.flatnonzero(other != q)
+        expected = (middle[j], 2 * middle[j] - q[j]) if bounded[j] else (q[j] - np.pi / 2, q[j] + np.pi / 2)
+        assert (one[j], other[j]) == pytest.approx(expected)
 
 
 def test_a_healthy_run_as_a_record_is_its_own_measurement(law):

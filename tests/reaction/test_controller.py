@@ -22,9 +22,9 @@ class Robot:
     def __init__(self, react="chain", rates=0.1, plan=False):
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
         law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
-        self.controller = Controller(
-            law, SimpleNamespace(arm=arm), bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan
-        )
+        law.ahead = lambda q, most: np.full(len(q), np.inf)  # it ends elsewhere, wherever it begins
+        made_for = SimpleNamespace(arm=arm, speed_limit=None)
+        self.controller = Controller(law, made_for, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 
     def brake(self, joint):
         self.braked.append(joint)
@@ -142,6 +142,20 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
     for k in range(601, 900):
         near = robot.controller.rates(k * 1e-3, arm.upper - 0.05)
     assert near == pytest.approx(np.sqrt(2 * 10.0 * 0.05))
+
+
+def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
+    route = SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
+    monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *given: "no route" if given[3].locked else route)
+    robot = Robot(rates=0.0, plan=True)
+    robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
+    for time in (3.0, 3.1):
+        robot.controller.rates(time, np.zeros(7))
+    assert (robot.did()[-1], robot.controller.pace) == ("plan", 0.2)
+    for behind, v, pace in ((1.4e-3, 0.1, 0.2), (1.6e-3, 0.25, 0.2), (1.6e-3, -0.1, 0.2), (1.6e-3, 0.1, 0.08)):
+        robot.hear(3.2, alarm=False, behind=behind, v=v, wanted=0.2)
+        assert robot.controller.pace == pytest.approx(pace)
+    assert robot.controller.law.mask[1] == 1
 
 
 @pytest.mark.parametrize("falls", [True, False])

@@ -19,7 +19,7 @@ def made(request):
     arm, start = hf.arms.load(request.param), np.array(STARTS[request.param])
     law = hf.control.damped(arm, 0.02, task="position", gain=2.0, speed_limit=0.25)
     here = arm.forward_kinematics(start)[:3, 3]
-    goals = here + np.array([[0.0, -0.6, 0.1], [-0.2, -0.2, 0.3], [0.1, 0.3, -0.2]])
+    goals = here + np.array([[0.0, -0.6, 0.0], [-0.2, -0.2, 0.3], [0.1, 0.3, -0.2]])
     logs = [hf.simulate_faults(law, start, goal, body=BODY, seed=k, time_limit=4).log() for k, goal in enumerate(goals)]
     bounds = hf.diagnosis.calibrate(arm, logs, factor=3.0, coulomb=[0.5] * arm.n, viscous=[0.3] * arm.n)
     return law, start, goals[0], hf.diagnosis.Monitor(arm, bounds)

@@ -16,7 +16,8 @@ from holdfast.control.law import Law
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.kinds import Verdict
 from holdfast.failures import Degraded
-from holdfast.reaction.masked import MaskedLaw
+from holdfast.reaction.detour import detour
+from holdfast.reaction.masked import NEARER, PATIENCE, MaskedLaw
 from holdfast.reaction.plan import ACCELERATION, Planned, planned
 from holdfast.reaction.run import Action, React, What
 
@@ -27,6 +28,7 @@ STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and s
 BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking
 SLOW, HALF = 0.3, 0.5  # of the commanded speed
 TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was thought
+EASE = 0.8  # of the speed that such a joint has where it falls behind
 QUIET = 1.0  # s after which a contact is over
 SPARE = 1.2  # a weak motor must carry gravity so many times
 SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
@@ -37,7 +39,6 @@ SLACK = 1e-3  # rad or m: a sensor is believed where the tool's pose agrees so f
 RAMP = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
 LEAST = 0.1  # rad/s or m/s: a joint that calibration has hardly moved may be so fast
 IDLE = 1e-3  # rad/s and m/s: a law that commands less is at its end
-NEARER, PATIENCE = 1e-3, 1.5  # m and rad, s: so is one that does not bring the tool so much nearer in this time
 _EASED = frozenset({"weak", "friction", "sluggish"})
 
 
@@ -75,7 +76,7 @@ class Controller:
         brakes: Of the joints.
         watch: The monitor; None without one.
         react: Who notices.
-        plan: Whether a route is planned where the masked law ends off the target.
+        plan: Whether a route is planned where the masked law ends off the target, from every posture that is tried.
 
     Attributes:
         pace: Fraction of the commanded speed that is aimed at.
@@ -103,7 +104,11 @@ class Controller:
         self._alarm = self._settled = self._quiet = np.inf
         self._usual = 1.0  # pace with what has failed so far
         self._named: str | None = None  # the joint that the alarm is about, once something is done about it
-        self._may_plan, self._braked = plan, -1  # once after each brake; the last one
+        self._braked = -1  # the last joint that was
+        self._tries, self._looked = (
+            list[What](),
+            False,
+        )  # ways round that are left after a brake; whether the law was followed ahead
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
         self._poses, self._seen = list[tuple[Array, Array]](), False
         self._planned: Planned | None = None
@@ -154,19 +159,24 @@ class Controller:
         if self._planned is not None:
             if not self._planned.over:
                 return self._planned.rates(q, pace=self._pace, dt=dt)
-            self._planned = None
+            self._planned, self._since, self._nearest = None, time, np.inf
         rates = self.law.rates(q)
         if self._waits(time):
             self._pace, self._since, self._nearest = 0.0, time, np.inf  # the arm waits until it knows where that joint is
-        elif self._may_plan and not self.over and self.law.mask.min() == 0 and self._at_its_end(time, rates):
-            return self._end_of_law(time, q)
+        elif self._tries and not self.over and self.law.mask.min() == 0 and self._ends_elsewhere(time, q, rates):
+            return self._way_round(time, q)
         return self._pace * rates
 
     def _waits(self, time: float) -> bool:
         later = LATER if 0 < len(self._poses) < SAMPLES else 0.0
         return bool(np.isfinite(self._settled) and time <= self._settled + later)
 
-    def _at_its_end(self, time: float, rates: Array) -> bool:
+    def _ends_elsewhere(self, time: float, q: Array, rates: Array) -> bool:
+        """The law does not lead to its target: followed ahead, once after each brake, or because it has come to its end."""
+        if not self._looked:
+            self._looked = True
+            if not np.isfinite(self.law.ahead(q[None], most=self._most)[0]):
+                return True
         off = self.law.miss + self.law.turn
         if off < self._nearest - NEARER:
             self._nearest, self._since = off, time
@@ -200,6 +210,8 @@ class Controller:
             # Where its motor is at its effort its reference does not go ahead, so what it should have done is summed up.
             self._lost = 0.0 if follows else self._lost + off * (time - self._heard)
             self._heard = time
+            if y > BEHIND and abs(v[j]) > STILL and 0 < v[j] * np.sign(wanted[j]) < abs(wanted[j]):  # it may not be faster
+                self.pace = self._usual = min(self.pace, EASE * self._pace * float(v[j] / wanted[j]))
             if max(y, abs(self._lost) / self._bounds.tracking[j]) > FAR_OFF:
                 self._trial = None
                 self._brake(time, self.arm.joint_names[j], "it does not follow")
@@ -303,7 +315,8 @@ class Controller:
         j = self.arm.joint_index(joint)
         self._brakes.brake(joint)
         self.law.mask[j], self.pace, self._named, self._braked = 0.0, self._usual, joint, j
-        self._planned, self._may_plan = None, self._plans
+        self._planned, self._looked = None, False
+        self._tries = ["detour", "plan"] if self._plans else ["detour"]
         if self._bounds is not None:
             self._most = calibrated(self.arm, self._bounds)
         self._settled, self._poses = time + SETTLED + (SAMPLES / 100 if self._seen else 0.0), []
@@ -326,20 +339,32 @@ class Controller:
             why = f"by the tool's pose it is {factor * off:.3g} {unit} off what its sensor says"
             self._act(time, "measure", why, joint=self.arm.joint_names[j])
 
-    def _end_of_law(self, time: float, q: Array) -> Array:
-        """The law commands nothing more, or has no answer: at the target, or elsewhere."""
+    def _way_round(self, time: float, q: Array) -> Array:
+        """By way of another posture, else along a route; else the arm stops, or follows the law where no route is asked for."""
         left = self.degraded
         assert left is not None
-        self._may_plan = False
-        found = planned(self._made_for, q, self.law.pose, left)
-        if isinstance(found, str):
-            tried = self._tried(time, q)
-            if tried is None:
-                self._stop(time, found)
-                return np.zeros(self.arm.n)
-            found = tried
-        self._act(time, "plan", f"the law ended elsewhere; a route of {found.waypoints} waypoints takes {found.duration:.3g} s")
-        self._planned, self._pace = found, 0.0
+        if self._watch is not None and self._named is not None:
+            self._go_on()
+        while self._tries:
+            way = self._tries.pop(0)
+            goal = self.law.pose
+            if way == "detour":
+                via = detour(self.law, self.arm, q, most=self._most, fastest=self._made_for.speed_limit)
+                if via is None:
+                    continue
+                goal = via
+            found = planned(self._made_for, q, goal, left)
+            if isinstance(found, str) and way == "plan":
+                tried = self._tried(time, q)
+                if tried is None:
+                    self._stop(time, found)
+                    break
+                found = tried
+            if not isinstance(found, str):
+                what = "another posture first, which" if way == "detour" else f"a route of {found.waypoints} waypoints"
+                self._act(time, way, f"the law would end elsewhere; {what} takes {found.duration:.3g} s")
+                self._planned, self._pace = found, 0.0
+                break
         return np.zeros(self.arm.n)
 
     def _tried(self, time: float, q: Array) -> Planned | None:

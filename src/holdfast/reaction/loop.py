@@ -70,10 +70,12 @@ def simulate_faults(
     * with a weak motor or more friction the arm goes on at half the speed; a joint whose motor can no longer carry
       1.2 times the arm's weight is braked;
     * where something pushes the arm it goes on at 0.3 of the speed, and after 1 s as before;
-    * where the law ends off the target, :func:`holdfast.recover` plans a route, once after each brake; planning takes no
-      simulated time. If it finds no route, but would find one with the braked joint, the brake is released, once, and the arm
-      follows that route slowly: a joint at a stop, or with a slow motor, looks like one that drives nothing. If the joint does
-      not follow it is braked again. Else the arm stops.
+    * after each brake what is left of the law is followed ahead. Where it would end off the target, or in fact ends there, the
+      arm first goes to another posture from which it does not, if one of a few does: all joints nearer to the middle of their
+      ranges, or one of them turned over. Where there is none :func:`holdfast.recover` plans a route. Neither takes simulated
+      time. If it finds no route, but would find one with the braked joint, the brake is released, once, and the arm follows
+      that route slowly, as fast as the joint can: a joint at a stop, or with a slow motor, looks like one that drives nothing.
+      If the joint does not follow it is braked again. Else the arm stops.
 
     A brake stops its joint at once. From then on that joint is left out of what the monitor looks at, and the others are
     watched on: when a second one fails all of this follows once more, with what both have left. Between the brake and the end
@@ -88,7 +90,7 @@ def simulate_faults(
         monitor: Watches the arm, by the bounds that it was made with; it is reset.
         react: ``chain`` with a monitor and ``none`` without one if not given; ``stop``: everything stops at the first alarm;
             ``known``: each fault is known when it begins, without a monitor.
-        plan: Whether a route is planned, see above.
+        plan: Whether a route is planned where no other posture helps, see above; else the arm goes on as far as the law leads.
         body: What of the robot differs from the arm's model; :class:`holdfast.Body` as it comes if not given.
         servos: Of the joints; as they come, at the monitor's rate, if not given.
         centring: 1/s, at which the law draws joints to the middle of their range as far as the task leaves that open.

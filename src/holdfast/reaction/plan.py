@@ -52,17 +52,18 @@ class Planned:
         return np.asarray(rate * along + PULL * (there - q))
 
 
-def planned(law: Law, q: Array, target: Array, left: Degraded) -> Planned | str:
-    """A route to the target, or a phrase with what is in its way. Planning takes no time: the arm waits.
+def planned(law: Law, q: Array, goal: Array, left: Degraded) -> Planned | str:
+    """A route to a goal, or a phrase with what is in its way. Planning takes no time: the arm waits.
 
     Args:
         law: Whose task it is; its speed limit holds for the tool.
         q: (n,) where the arm is, rad and m.
-        target: (4, 4) m, world.
+        goal: (4, 4) pose of the tool, m, world; or (n,) a configuration.
         left: What is left of the arm.
     """
     start = np.clip(q, law.arm.lower, law.arm.upper)
-    found = recover(law.arm, left, start, goal=target, task=law.task, samples=0, clearance=False, accelerations=ACCELERATION)
+    task = law.task if goal.ndim == 2 else None
+    found = recover(law.arm, left, start, goal=goal, task=task, samples=0, clearance=False, accelerations=ACCELERATION)
     if not found.ok or found.timed is None:
         gives = "" if found.given_up is None else f"; it could be met without {', '.join(found.given_up.names)}"
         return f"{found.ending.sentence}{gives}"

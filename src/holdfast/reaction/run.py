@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 React = Literal["none", "stop", "chain", "known"]
 Ended = Literal["reached", "stopped", "missed", "unstable"]
-What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "plan", "follow", "stop"]
+What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "follow", "stop"]
 
 _ENDS = {
     "reached": "the tool reached its target",

@@ -1,0 +1,57 @@
+"""A way round where what is left of a law ends off its target: another posture, from which it does not.
+
+Nothing is planned: a few postures are tried by following the law ahead from each, all at once, in less than 0.1 s.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.reaction.masked import MaskedLaw
+
+Array = NDArray[np.float64]
+
+DEPTHS = (0.25, 0.5, 0.75, 1.0)  # of the way of all joints to the middle of their ranges
+TURN = np.pi / 2  # rad, of a joint without limits, either way
+_PARTS = 16  # of the way to a posture, for the length of the tool's
+
+
+def postures(arm: Arm, q: Array, mask: Array) -> Array:
+    """(K, n) postures around a configuration (n,): all joints nearer to the middle, or one at its middle or beyond it.
+
+    Args:
+        arm: The arm.
+        q: rad and m.
+        mask: (n,) 1 for joints that follow, 0 for the others.
+    """
+    bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
+    middle = np.where(bounded, (np.where(bounded, arm.lower, 0.0) + np.where(bounded, arm.upper, 0.0)) / 2, q)
+    found = [q + mask * depth * (middle - q) for depth in DEPTHS]
+    for j in np.flatnonzero(mask):
+        for place in (middle[j], 2 * middle[j] - q[j]) if bounded[j] else (q[j] - TURN, q[j] + TURN):
+            found.append(np.where(np.arange(arm.n) == j, place, q))
+    return np.array(found)
+
+
+def detour(law: MaskedLaw, arm: Arm, q: Array, *, most: Array, fastest: float | None) -> Array | None:
+    """The posture (n,) by way of which the target is reached soonest; None if by way of none.
+
+    Args:
+        law: What is left of the law.
+        arm: The arm.
+        q: (n,) where it is, rad and m.
+        most: (n,) joint rates, rad/s and m/s.
+        fastest: m/s, of the tool; None: as fast as the joints.
+    """
+    tried = postures(arm, np.clip(q, arm.lower, arm.upper), law.mask)
+    way = np.abs(tried - q)
+    takes = (way / most).max(axis=1)
+    if fastest is not None:
+        between = q + np.linspace(0.0, 1.0, _PARTS)[:, None, None] * (tried - q)
+        tool = arm.forward_kinematics(between.reshape(-1, arm.n))[:, :3, 3].reshape(_PARTS, -1, 3)
+        takes = np.maximum(takes, np.linalg.norm(np.diff(tool, axis=0), axis=-1).sum(axis=0) / fastest)
+    takes = takes + law.ahead(tried, most=most)
+    best = int(np.argmin(takes))
+    return tried[best] if np.isfinite(takes[best]) else None
