@@ -83,8 +83,9 @@ def export_controller(
     """Write a controller in C++17 that moves the tool by a twist, watches for joint faults and goes on with what is left.
 
     Its life cycle is that of a chainable controller of ROS 2, and it needs nothing of it; a file that does is beside it. It
-    reacts as :func:`holdfast.simulate_faults` does with ``react="chain"``, without a planned route: it brakes a joint and
-    leaves it out of the law, slows down, or stops. Joints are commanded rates. It is no certified safety function.
+    reacts as :func:`holdfast.simulate_faults` does with ``react="chain"``, but knows no target, hence no other posture and no
+    route: it brakes a joint and leaves it out of the law, slows down, or stops. Joints are commanded rates. It is no certified
+    safety function.
 
     Args:
         law: For the healthy arm.
