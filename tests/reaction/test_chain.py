@@ -96,7 +96,7 @@ def test_where_the_law_would_end_off_its_target_it_goes_by_another_posture_or_al
     options = {"faults": [FaultEvent("locked", "panda_joint3", 0.3)], "body": BODY, "react": "known"}
     detour = hf.simulate_faults(law, start, goal, plan=False, **options).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
-    monkeypatch.setattr("holdfast.reaction.controller.detour", lambda *args, **given: None)
+    monkeypatch.setattr("holdfast.reaction.controller.better_posture", lambda *args, **given: None)
     alone = hf.simulate_faults(law, start, goal, plan=False, **options)
     assert (alone.outcome, [a.what for a in alone.actions]) == ("missed", ["alarm", "brake"])
     assert alone.miss[-1] > 0.02

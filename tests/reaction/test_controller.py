@@ -22,7 +22,7 @@ class Robot:
     def __init__(self, react="chain", rates=0.1, plan=False):
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
         law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
-        law.ahead = lambda q, most: np.full(len(q), np.inf)  # it ends elsewhere, wherever it begins
+        law.ahead, law.arm = lambda q, most: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
         made_for = SimpleNamespace(arm=arm, speed_limit=None)
         self.controller = Controller(law, made_for, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 

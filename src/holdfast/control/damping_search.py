@@ -95,44 +95,16 @@ def in_c(m: int, n: int, allowed: float) -> str:
     takes J (m, n) row by row and a velocity v (m,) of any norm.
     """
     cells, kept, rounds = _grid(m)
-    wide = -(-n // 4) * 4
-    sums = " + ".join(f"f->rows[{k}][i] * r[{k}]" for k in range(m))
-    numbers = {
-        "SWEEPS": _SWEEPS[m],
-        "ORTHOGONAL": _ORTHOGONAL**2,
-        "CONVERGED": _CONVERGED**2,
-        "BISECTIONS": _BISECTIONS,
-        "NEWTON": _NEWTON,
-        "REFINED": rounds,
-        "KEPT": kept,
-        "EDGE": _EDGE,
-        "SMOOTH": _SMOOTH,
-        "ROUGH": _ROUGH,
-        "SAME": _SAME,
-        "FIRST": _FIRST,
-        "SINGULAR": SINGULAR**2,
-        "FLOOR": FLOOR**2,
-        "ALLOWED": allowed**2,
-    }
-    sizes = {"ROWS": m, "JOINTS": n, "WIDE": wide, "CELLS": cells}
-    constants = {
-        f"CONST_{key}": str(x) if isinstance(x, int) else c_backend.number(x) for key, x in {**sizes, **numbers}.items()
-    }
-    pairs = ", ".join(f"{{{a}, {b}}}" for a, b in _pairs(m)) or "{0, 0}"
-    return filled("holdfast.control", "c", "damping_search.c", {**constants, "CONST_PAIRS": pairs, "CONST_SUM": sums})
-
-
-def _pairs(m: int) -> list[tuple[int, int]]:
-    """All pairs of rows, those that do not touch each other one after the other: a processor then need not wait for one."""
-    free, order = [*combinations(range(m), 2)], list[tuple[int, int]]()
-    while free:
-        busy = set[int]()
-        for pair in list(free):
-            if not busy & set(pair):
-                busy |= set(pair)
-                order.append(pair)
-                free.remove(pair)
-    return order
+    counts = {"ROWS": m, "JOINTS": n, "WIDE": -(-n // 4) * 4, "CELLS": cells, "KEPT": kept, "REFINED": rounds}
+    counts |= {"SWEEPS": _SWEEPS[m], "BISECTIONS": _BISECTIONS, "NEWTON": _NEWTON}
+    sizes = {"ORTHOGONAL": _ORTHOGONAL, "CONVERGED": _CONVERGED, "SINGULAR": SINGULAR, "FLOOR": FLOOR, "ALLOWED": allowed}
+    sizes |= {"EDGE": _EDGE, "SMOOTH": _SMOOTH, "ROUGH": _ROUGH, "SAME": _SAME, "FIRST": _FIRST}
+    words = {key: str(x) for key, x in counts.items()} | {key: c_backend.number(x) for key, x in sizes.items()}
+    # Pairs of rows of the same sum, modulo m, have no row in common: a processor need not wait for one to begin another.
+    pairs = sorted(combinations(range(m), 2), key=lambda pair: sum(pair) % m) or [(0, 0)]
+    words["PAIRS"] = ", ".join(f"{{{a}, {b}}}" for a, b in pairs)
+    words["SUM"] = " + ".join(f"f->rows[{k}][i] * r[{k}]" for k in range(m))
+    return filled("holdfast.control", "c", "damping_search.c", {f"CONST_{key}": x for key, x in words.items()})
 
 
 def _grid(m: int) -> tuple[int, int, int]:

@@ -16,7 +16,7 @@ from holdfast.control.law import Law
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.kinds import Verdict
 from holdfast.failures import Degraded
-from holdfast.reaction.detour import detour
+from holdfast.reaction.detour import better_posture
 from holdfast.reaction.masked import NEARER, PATIENCE, MaskedLaw
 from holdfast.reaction.plan import ACCELERATION, Planned, planned
 from holdfast.reaction.run import Action, React, What
@@ -172,7 +172,7 @@ class Controller:
         return bool(np.isfinite(self._settled) and time <= self._settled + later)
 
     def _ends_elsewhere(self, time: float, q: Array, rates: Array) -> bool:
-        """The law does not lead to its target: followed ahead, once after each brake, or because it has come to its end."""
+        """The law does not lead to its target: followed ahead, once after each brake, or because it is at its end."""
         if not self._looked:
             self._looked = True
             if not np.isfinite(self.law.ahead(q[None], most=self._most)[0]):
@@ -347,25 +347,23 @@ class Controller:
             self._go_on()
         while self._tries:
             way = self._tries.pop(0)
-            goal = self.law.pose
-            if way == "detour":
-                via = detour(self.law, self.arm, q, most=self._most, fastest=self._made_for.speed_limit)
-                if via is None:
-                    continue
-                goal = via
-            found = planned(self._made_for, q, goal, left)
-            if isinstance(found, str) and way == "plan":
-                tried = self._tried(time, q)
-                if tried is None:
-                    self._stop(time, found)
-                    break
-                found = tried
+            found = self._by_posture(q, left) if way == "detour" else self._by_route(time, q, left)
             if not isinstance(found, str):
+                self._planned, self._pace = found, 0.0
                 what = "another posture first, which" if way == "detour" else f"a route of {found.waypoints} waypoints"
                 self._act(time, way, f"the law would end elsewhere; {what} takes {found.duration:.3g} s")
-                self._planned, self._pace = found, 0.0
                 break
+            if way == "plan":
+                self._stop(time, found)
         return np.zeros(self.arm.n)
+
+    def _by_posture(self, q: Array, left: Degraded) -> Planned | str:
+        via = better_posture(self.law, q, most=self._most, fastest=self._made_for.speed_limit)
+        return "no other posture helps" if via is None else planned(self._made_for, q, via, left)
+
+    def _by_route(self, time: float, q: Array, left: Degraded) -> Planned | str:
+        found = planned(self._made_for, q, self.law.pose, left)
+        return self._tried(time, q) or found if isinstance(found, str) else found
 
     def _tried(self, time: float, q: Array) -> Planned | None:
         """A slow route for the braked joint too: at a stop, or slow, it looks as a joint does that drives nothing.

@@ -35,19 +35,18 @@ def postures(arm: Arm, q: Array, mask: Array) -> Array:
     return np.array(found)
 
 
-def detour(law: MaskedLaw, arm: Arm, q: Array, *, most: Array, fastest: float | None) -> Array | None:
+def better_posture(law: MaskedLaw, q: Array, *, most: Array, fastest: float | None) -> Array | None:
     """The posture (n,) by way of which the target is reached soonest; None if by way of none.
 
     Args:
         law: What is left of the law.
-        arm: The arm.
-        q: (n,) where it is, rad and m.
+        q: (n,) where the arm is, rad and m.
         most: (n,) joint rates, rad/s and m/s.
         fastest: m/s, of the tool; None: as fast as the joints.
     """
+    arm = law.arm
     tried = postures(arm, np.clip(q, arm.lower, arm.upper), law.mask)
-    way = np.abs(tried - q)
-    takes = (way / most).max(axis=1)
+    takes = (np.abs(tried - q) / most).max(axis=1)
     if fastest is not None:
         between = q + np.linspace(0.0, 1.0, _PARTS)[:, None, None] * (tried - q)
         tool = arm.forward_kinematics(between.reshape(-1, arm.n))[:, :3, 3].reshape(_PARTS, -1, 3)

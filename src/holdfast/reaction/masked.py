@@ -47,6 +47,7 @@ class MaskedLaw:
         centring: 1/s, at which joints with two limits are drawn to their middle as far as the task leaves it open.
 
     Attributes:
+        arm: The law's.
         pose: (4, 4) of the target.
         mask: (n,) 1 for joints that follow, 0 for the others.
         miss, turn: Of the last step: how far the tool was from its target, m and rad.
@@ -54,7 +55,7 @@ class MaskedLaw:
 
     def __init__(self, law: Law, target: ArrayLike, *, centring: float) -> None:
         poses, rows = target_poses(law.task, target)
-        arm, n = law.arm, law.arm.n
+        self.arm, arm, n = law.arm, law.arm, law.arm.n
         self.pose = np.eye(4)
         if rows is None:
             self.pose = np.asarray(poses[0])

@@ -46,7 +46,7 @@ static void orthogonal(search *f) {
         for (turned = k = 0; k < PAIRS; ++k) {
             int one = pairs[k][0], other = pairs[k][1];
             double g = product(f->rows[one], f->rows[other]), a = f->squares[one], b = f->squares[other];
-            if (g * g > CONST_ORTHOGONAL * a * b) {
+            if (g * g > CONST_ORTHOGONAL * CONST_ORTHOGONAL * a * b) {
                 double difference = b - a, root = fabs(difference) + sqrt(difference * difference + 4 * g * g);
                 double size = 1 / sqrt(root * root + 4 * g * g), cosine = root * size, sine = copysign(2, difference) * g * size;
                 double x = f->c[one], moved = 2 * g * g / copysign(root, difference);
@@ -55,7 +55,7 @@ static void orthogonal(search *f) {
                 f->squares[one] -= moved;
                 f->squares[other] += moved;
                 rotate(f->rows[one], f->rows[other], cosine, sine);
-                turned |= g * g > CONST_CONVERGED * a * b;
+                turned |= g * g > CONST_CONVERGED * CONST_CONVERGED * a * b;
             }
         }
     }
@@ -190,16 +190,16 @@ static void inverse(const double *j, const double *v, double *rates, double *dam
     orthogonal(&f);
     for (k = 0; k < ROWS; ++k) top = larger(f.squares[k], top);
     for (k = 0; k < ROWS; ++k) {
-        if (f.squares[k] <= CONST_SINGULAR * top) { /* what a singular J cannot produce is error whatever the damping */
+        if (f.squares[k] <= CONST_SINGULAR * CONST_SINGULAR * top) { /* what a singular J cannot produce is error whatever the damping */
             f.missing += f.c[k] * f.c[k];
             f.c[k] = 0;
             f.squares[k] = top > 0 ? top : 1;
         }
         for (i = 0; i < WIDE; ++i) f.rows[k][i] *= f.c[k];
     }
-    room = CONST_ALLOWED - f.missing;
-    end = room > 0 ? largest_of(&f, room) : CONST_FLOOR;
-    s = room > 0 ? least(&f, end) : CONST_FLOOR;
+    room = CONST_ALLOWED * CONST_ALLOWED - f.missing;
+    end = room > 0 ? largest_of(&f, room) : CONST_FLOOR * CONST_FLOOR;
+    s = room > 0 ? least(&f, end) : CONST_FLOOR * CONST_FLOOR;
     for (k = 0; k < ROWS; ++k)
         for (i = 0; i < WIDE; ++i) a[i] += f.rows[k][i] * (1 / (f.squares[k] + s));
     for (i = 0; i < JOINTS; ++i) rates[i] = size * a[i];
