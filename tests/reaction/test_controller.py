@@ -152,8 +152,14 @@ def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
     for time in (3.0, 3.1):
         robot.controller.rates(time, np.zeros(7))
     assert (robot.did()[-1], robot.controller.pace) == ("plan", 0.2)
-    for behind, v, pace in ((1.4e-3, 0.1, 0.2), (1.6e-3, 0.25, 0.2), (1.6e-3, -0.1, 0.2), (1.6e-3, 0.1, 0.08)):
-        robot.hear(3.2, alarm=False, behind=behind, v=v, wanted=0.2)
+    for behind, v, pace in (
+        (1.4e-3, 0.15, 0.2),
+        (1.6e-3, 0.35, 0.2),
+        (1.6e-3, -0.15, 0.2),
+        (1.6e-3, 0.09, 0.2),
+        (1.6e-3, 0.15, 0.08),
+    ):
+        robot.hear(3.2, alarm=False, behind=behind, v=v, wanted=0.3)
         assert robot.controller.pace == pytest.approx(pace)
     assert robot.controller.law.mask[1] == 1
 

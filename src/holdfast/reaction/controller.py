@@ -210,7 +210,7 @@ class Controller:
             # Where its motor is at its effort its reference does not go ahead, so what it should have done is summed up.
             self._lost = 0.0 if follows else self._lost + off * (time - self._heard)
             self._heard = time
-            if y > BEHIND and abs(v[j]) > STILL and 0 < v[j] * np.sign(wanted[j]) < abs(wanted[j]):  # it may not be faster
+            if y > BEHIND and LEAST < v[j] * np.sign(wanted[j]) < abs(wanted[j]):  # it may not be faster
                 self.pace = self._usual = min(self.pace, EASE * self._pace * float(v[j] / wanted[j]))
             if max(y, abs(self._lost) / self._bounds.tracking[j]) > FAR_OFF:
                 self._trial = None
