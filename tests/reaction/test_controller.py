@@ -87,6 +87,9 @@ def test_after_a_joint_was_slowed_for_good_a_push_leaves_the_pace_as_it_was():
     [
         ({"behind": 2e-3, "v": 0.0}, "brake"),  # it does not move
         ({"behind": 9e-3, "v": 0.5}, "brake"),  # it runs away
+        ({"behind": 2e-3, "v": -0.5}, "brake"),  # it falls, and its servo does what it can
+        ({"behind": 1e-3, "v": -0.5}, "slow"),
+        ({"behind": 2e-3, "v": 0.5}, "slow"),
         ({"behind": 0.5e-3, "v": 0.0}, "slow"),
         ({"behind": 9e-3, "v": 0.15}, "slow"),
     ],

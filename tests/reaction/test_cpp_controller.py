@@ -155,7 +155,7 @@ def moved(drive, fault, joint, rng, *, brakes=True, second=None):
     [
         ("none", 0, "running", -1),
         ("locked", 1, "running degraded", 1),
-        ("limp", 3, "running slowed degraded", 3),
+        ("limp", 3, "running degraded", 3),
         ("weak", 3, "running slowed", -1),
         ("push", 0, "running slowed", -1),
         ("sensor", 2, "running degraded", 2),

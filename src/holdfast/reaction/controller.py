@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 AT_ONCE = 0.020  # s after the alarm: a joint that does not move, or runs away, is braked before its kind is known
 STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and so much off its reference
-BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking
+BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking; a servo at its effort is not far off a joint that falls
 SLOW, HALF = 0.3, 0.5  # of the commanded speed
 TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was thought
 EASE = 0.8  # of the speed that such a joint has where it falls behind
@@ -305,7 +305,7 @@ class Controller:
         y = abs(behind) / self._bounds.tracking[self.arm.joint_index(joint)]
         if abs(v) < STILL and y > BEHIND:
             self._brake(time, joint, "it does not move")
-        elif y > FAR_OFF and abs(v - wanted) > FASTER and abs(v) > RUNS:
+        elif y > (BEHIND if behind * v < 0 else FAR_OFF) and abs(v - wanted) > FASTER and abs(v) > RUNS:
             self._brake(time, joint, "it runs away")
         elif self.pace > SLOW:
             self.pace = SLOW

@@ -245,9 +245,10 @@ void TolerantController::hear(const Joints &q, const NAME_monitor_verdict &verdi
 }
 
 void TolerantController::at_once(int i, const Joints &q) {
-    const double y = std::fabs(status_.reference[i] - q[i]) / tracking_bound[i], v = monitor_.v[i];
+    const double behind = status_.reference[i] - q[i], y = std::fabs(behind) / tracking_bound[i], v = monitor_.v[i];
+    const double runs_off = behind * v < 0 ? behind_bounds : far_bounds;
     if (options_.brakes && std::fabs(v) < still && y > behind_bounds) leave_out(i, "a joint does not move");
-    else if (options_.brakes && y > far_bounds && std::fabs(v - commanded_[i]) > faster && std::fabs(v) > runs)
+    else if (options_.brakes && y > runs_off && std::fabs(v - commanded_[i]) > faster && std::fabs(v) > runs)
         leave_out(i, "a joint runs away");
     else if (aim_ > slow_pace)
         slow(slow_pace, "a joint failed; how is not known yet");
