@@ -105,7 +105,7 @@ def search_in_c(folder, m, n, allowed):
     source, library = folder / "search.c", folder / f"search{m}{n}.so"
     call = "void call(const double *j, const double *v, double *out)"
     text = damping_search.in_c(m, n, allowed)
-    ends = f"{call};\n{call} {{ inverse(j, v, out, out + {n}, out + {n + 1}, out + {n + 2}); }}\n"
+    ends = f"{call};\n{call} {{ damped_inverse(j, v, out, out + {n}, out + {n + 1}, out + {n + 2}); }}\n"
     source.write_text(f"#include <math.h>\n{text}\n{ends}")
     flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off", "-fsanitize=undefined"]
     done = ["-fno-sanitize-recover=all", "-shared", "-fPIC", str(source), "-o", str(library), "-lm"]

@@ -91,8 +91,8 @@ def search(j: SX, u: SX, allowed: SX | float) -> Choice:
 def in_c(m: int, n: int, allowed: float) -> str:
     """C99 text of the same search for m rows and n joints, in loops that end where there is nothing left to do.
 
-    ``static void inverse(const double *j, const double *v, double *rates, double *damping, double *largest, double *feasible)``
-    takes J (m, n) row by row and a velocity v (m,) of any norm.
+    ``static void damped_inverse(const double *j, const double *v, double *rates, double *damping, double *largest,
+    double *feasible)`` takes J (m, n) row by row and a velocity v (m,) of any norm.
     """
     cells, kept, rounds = _grid(m)
     counts = {"ROWS": m, "JOINTS": n, "WIDE": -(-n // 4) * 4, "CELLS": cells, "KEPT": kept, "REFINED": rounds}

@@ -16,7 +16,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.control.c_functions import Function, commented, written
+from holdfast.control.c_functions import commented
 from holdfast.errors import InputError
 from holdfast.files.output import put
 from holdfast.kernels.program import SX
@@ -41,14 +41,12 @@ class _Law(Protocol):
 
     arm: Arm
     task: Task
-    others: tuple[str, ...]
 
     @property
     def slug(self) -> str: ...
     def jacobian(self, q: SX) -> SX: ...
-    def scaled(self, v: SX) -> SX: ...
-    def rates(self, q: SX, v: SX) -> SX: ...
-    def inverse_in_c(self) -> str: ...
+    def outputs(self, q: SX, v: SX) -> dict[str, SX]: ...
+    def computed_in_c(self) -> str: ...
     def phrase(self) -> str: ...
 
 
@@ -100,30 +98,30 @@ def check_name(name: str) -> str:
 def c_files(law: _Law, name: str) -> dict[str, str]:
     """Text of ``NAME.c``, ``NAME.h``, ``NAME_example.c`` and ``NAME_test.c``; see :meth:`holdfast.control.Law.export_c`."""
     check_name(name)
-    about = _about(law, name)
+    q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m)
+    told = law.outputs(q, v)
+    function = ca.Function(f"{name}_law", [q, v], [ca.densify(x) for x in told.values()], ["q", "v"], list(told), {"cse": True})
+    about = _about(law, name, list(told)[1:])
     return {
-        f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_source(law, name)}',
-        f"{name}.h": f"{about}\n{_header(law, name)}",
-        f"{name}_example.c": _example(law, name),
-        f"{name}_test.c": _test(law, name),
+        f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_source(law, name, function)}',
+        f"{name}.h": f"{about}\n{_header(law, name, function)}",
+        f"{name}_example.c": _example(law, name, function),
+        f"{name}_test.c": _test(law, name, function),
     }
 
 
-def _signature(law: _Law, name: str) -> str:
+def _signature(law: _Law, name: str, function: ca.Function) -> str:
     arguments = [f"const double q[{law.arm.n}]", f"const double v[{law.task.m}]", f"double rates[{law.arm.n}]"]
-    return f"int {name}({', '.join(arguments + [f'double *{x}' for x in law.others])})"
+    return f"int {name}({', '.join(arguments + [f'double *{x}' for x in function.name_out()[1:]])})"
 
 
-def _source(law: _Law, name: str) -> str:
-    n, m, others = law.arm.n, law.task.m, law.others
-    q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", m)
-    seen = Function({"q": q, "v": v}, {"j": [law.jacobian(q).T], "scaled": [law.scaled(v)]})
+def _source(law: _Law, name: str, function: ca.Function) -> str:
+    n, m, others = law.arm.n, law.task.m, function.name_out()[1:]
     copies = "".join(f"    if ({x}) *{x} = fine ? out_{x} : 0;\n" for x in others)
     declared = "".join(f"    double out_{x} = 0;\n" for x in others)
     names = ", ".join(quoted(x) for x in law.arm.joint_names)
     # Zero rates stop an arm; NaN would go on to its drives.
-    return f"""{written({"seen": seen})}
-{law.inverse_in_c()}
+    return f"""{law.computed_in_c()}
 const char *const {name}_joints[{n}] = {{{names}}};
 
 int {name}_check_joints(const char *const names[], int count) {{
@@ -136,14 +134,12 @@ int {name}_check_joints(const char *const names[], int count) {{
     return count > {n} ? {n + 1} : 0;
 }}
 
-{_signature(law, name)} {{
-{declared}    double j[{m * n}], scaled[{m}];
-    int fine = 1, k;
+{_signature(law, name, function)} {{
+{declared}    int fine = 1, k;
     for (k = 0; k < {n}; ++k) fine = fine && q[k] - q[k] == 0;
     for (k = 0; k < {m}; ++k) fine = fine && v[k] - v[k] == 0;
     if (fine) {{
-        seen(q, v, j, scaled);
-        inverse(j, scaled, rates{"".join(f", &out_{x}" for x in others)});
+        computed(q, v, rates{"".join(f", &out_{x}" for x in others)});
         for (k = 0; k < {n}; ++k) fine = fine && rates[k] - rates[k] == 0;
     }}
     for (k = 0; k < {n} && !fine; ++k) rates[k] = 0;
@@ -152,7 +148,7 @@ int {name}_check_joints(const char *const names[], int count) {{
 """
 
 
-def _header(law: _Law, name: str) -> str:
+def _header(law: _Law, name: str, function: ca.Function) -> str:
     guard = f"{name.upper()}_H"
     return f"""#ifndef {guard}
 #define {guard}
@@ -173,7 +169,7 @@ extern const char *const {name}_joints[{law.arm.n}];
 /* 0 if the joints of a driver are these, in this order; else the place, from 1, of the first that is not. */
 int {name}_check_joints(const char *const names[], int count);
 
-{_signature(law, name)};
+{_signature(law, name, function)};
 
 #ifdef __cplusplus
 }}
@@ -183,11 +179,11 @@ int {name}_check_joints(const char *const names[], int count);
 """
 
 
-def _example(law: _Law, name: str) -> str:
+def _example(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
     start = law.arm.states.get("home", np.mean(finite_limits(law.arm), axis=0))
     names = ", ".join(quoted(x) for x in law.arm.joint_names)
-    nulls = ", 0" * len(law.others)
+    nulls = ", 0" * (function.n_out() - 1)
     return f"""/*
  * A control loop around {name}: an arm without dynamics follows the rates for one second.
  * cc -std=c99 {name}.c {name}_example.c -lm -o {name}_example
@@ -222,10 +218,10 @@ int main(void) {{
 """
 
 
-def _test(law: _Law, name: str) -> str:
+def _test(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
-    cases = _cases(law)
-    nulls = ", 0" * len(law.others)
+    cases = _cases(law, function)
+    nulls = ", 0" * (function.n_out() - 1)
     rows = ",\n".join(f"    {{{{{numbers(q)}}},\n     {{{numbers(v)}}},\n     {{{numbers(rates)}}}}}" for q, v, rates in cases)
     return f"""/*
  * Does {name} compute here what holdfast {version()} computed where it was written? Returns 0 if so.
@@ -269,17 +265,16 @@ int main(void) {{
 """
 
 
-def _cases(law: _Law) -> list[tuple[Array, Array, Array]]:
+def _cases(law: _Law, function: ca.Function) -> list[tuple[Array, Array, Array]]:
     """Configurations away from singular ones, commands, and the rates that holdfast gives them."""
     rng, found = np.random.default_rng(0), []
-    q, along = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m)
-    function = ca.Function("law", [q, along], [law.jacobian(q), law.rates(q, along)])
+    jacobian = ca.Function("jacobian", [q := kinematics.joint_symbols(law.arm)], [law.jacobian(q)])
     low, high = finite_limits(law.arm)
     for _ in range(TRIES):
         at, v = rng.uniform(low, high), rng.normal(size=law.task.m)
-        jacobian, rates = map(np.array, function(at, v))
-        if np.linalg.cond(jacobian) < WELL_CONDITIONED and np.isfinite(rates).all():
-            found.append((at, v, rates.ravel()))
+        rates = np.asarray(function(at, v)[0] if function.n_out() > 1 else function(at, v)).ravel()
+        if np.linalg.cond(np.asarray(jacobian(at))) < WELL_CONDITIONED and np.isfinite(rates).all():
+            found.append((at, v, rates))
         if len(found) == CASES:
             return found
     if found:
@@ -317,7 +312,7 @@ def write(law: _Law, folder: str | Path, name: str) -> ExportedLaw:
     return ExportedLaw(law=law, source=source, header=header, example=example, test=test)
 
 
-def _about(law: _Law, name: str) -> str:
+def _about(law: _Law, name: str, others: list[str]) -> str:
     units = ", ".join(f"{j.name} [{j.unit}]" for j in law.arm.joints)
     lines = [
         f"{name}: {law.phrase()}, for the arm {law.arm.title}.",
@@ -326,7 +321,7 @@ def _about(law: _Law, name: str) -> str:
         f"q      joint positions: {units}",
         f"v      velocity of the task's rows ({law.task.name}, {law.task.frame} frame), m/s and rad/s",
         "rates  joint rates in the order of q, per second",
-        *([f"{', '.join(law.others)}: what else the law computes; each may be NULL"] if law.others else []),
+        *([f"{', '.join(others)}: what else the law computes; each may be NULL"] if others else []),
         "",
         "Returns 0; or 1 and zero rates where an input is not finite or the law has no answer (the arm is exactly singular).",
         "Gain, speed limit and joint limits are not in it. Compile without -ffast-math.",

@@ -54,7 +54,6 @@ class Law(Shown, Labelled, Differentiable, Steps):
         name: For people.
         slug: On the command line and in files.
         source: Paper and equation.
-        others: Names of what :meth:`outputs` tells beside the rates.
 
     Raises:
         TaskError: The task has more rows than the arm has joints.
@@ -64,7 +63,6 @@ class Law(Shown, Labelled, Differentiable, Steps):
     name = ""
     slug = ""
     source = ""
-    others: tuple[str, ...] = ()
 
     @checked
     def __init__(
@@ -123,11 +121,13 @@ class Law(Shown, Labelled, Differentiable, Steps):
         """What the law tells of q (n,) and a task velocity v (m,): ``rates`` (n,) first, then what else it computes."""
         return {"rates": self.rates(q, v)}
 
-    def inverse_in_c(self) -> str:
-        """C99 text of ``static void inverse(const double *j, const double *v, double *rates, ...)``.
+    def computed_in_c(self) -> str:
+        """C99 text of ``static void computed(const double *q, const double *v, double *rates, ...)``: :meth:`outputs`."""
+        q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
+        return written({"computed": Function({"q": q, "v": v}, {key: [x] for key, x in self.outputs(q, v).items()})})
 
-        J (m, n) row by row and v as of :meth:`inverse`; pointers to :attr:`others` follow the rates.
-        """
+    def inverse_in_c(self) -> str:
+        """C99 text of ``static void inverse(const double *j, const double *v, double *rates)``, J (m, n) row by row."""
         j, v = ca.SX.sym("j", self.task.m, self.arm.n), ca.SX.sym("v", self.task.m)
         return written({"inverse": Function({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
 

@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked_class
+from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control import damping_search
+from holdfast.control.c_functions import Function, written
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels.program import SX
@@ -56,7 +58,6 @@ class FailureTolerant(Law):
 
     name, slug = "failure-tolerant inverse", "failure-tolerant"
     source = "Goel et al. 2003, eq. (8), (9)"
-    others = ("damping", "largest_damping", "feasible")
 
     def __init__(
         self,
@@ -88,9 +89,28 @@ class FailureTolerant(Law):
         found = self._choose(j, scaled)
         return found["rates"], damping_search.slopes(j, scaled, self.pre_failure_error, found, by)
 
+    def computed_in_c(self) -> str:
+        """See :meth:`Law.computed_in_c`."""
+        q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
+        seen = written({"seen": Function({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scaled(v)]})})
+        told = "double *rates, double *damping, double *largest, double *feasible"
+        return f"""{seen}
+{damping_search.in_c(self.task.m, self.arm.n, self.pre_failure_error)}
+static void computed(const double *q, const double *v, {told}) {{
+    double j[ROWS * JOINTS], scaled[ROWS];
+    seen(q, v, j, scaled);
+    damped_inverse(j, scaled, rates, damping, largest, feasible);
+}}
+"""
+
     def inverse_in_c(self) -> str:
         """See :meth:`Law.inverse_in_c`."""
-        return damping_search.in_c(self.task.m, self.arm.n, self.pre_failure_error)
+        return f"""{damping_search.in_c(self.task.m, self.arm.n, self.pre_failure_error)}
+static void inverse(const double *j, const double *v, double *rates) {{
+    double told[3];
+    damped_inverse(j, v, rates, told, told + 1, told + 2);
+}}
+"""
 
     def _choose(self, j: SX, v: SX) -> dict[str, SX]:
         size = ca.sqrt(ca.sumsqr(v))

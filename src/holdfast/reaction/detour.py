@@ -1,7 +1,4 @@
-"""A way round where what is left of a law ends off its target: another posture, from which it does not.
-
-Nothing is planned: a few postures are tried by following the law ahead from each, all at once, in less than 0.1 s.
-"""
+"""Where what is left of a law ends off its target: another posture, from which it does not when it is followed ahead."""
 
 from __future__ import annotations
 
@@ -19,12 +16,9 @@ _PARTS = 16  # of the way to a posture, for the length of the tool's
 
 
 def postures(arm: Arm, q: Array, mask: Array) -> Array:
-    """(K, n) postures around a configuration (n,): all joints nearer to the middle, or one at its middle or beyond it.
+    """(K, n) around a configuration (n,), rad and m: all joints nearer to their middle, or one at its middle or beyond.
 
-    Args:
-        arm: The arm.
-        q: rad and m.
-        mask: (n,) 1 for joints that follow, 0 for the others.
+    Joints whose mask (n,) is 0 stay where they are.
     """
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
     middle = np.where(bounded, (np.where(bounded, arm.lower, 0.0) + np.where(bounded, arm.upper, 0.0)) / 2, q)

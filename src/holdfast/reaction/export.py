@@ -163,8 +163,6 @@ def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "COUNT": str(arm.n),
         "HOME": _listed(home),
         "TASK_ROWS": str(law.task.m),
-        "OTHER_DECLARED": "double other;\n        " * bool(law.others),
-        "OTHERS": ", &other" * len(law.others),
         "TASK_FRAME": law.task.frame,
         "TASK_TEXT": "{" + ", ".join(f"{{{_listed(row)}}}" for row in law.task.rows) + "}",
         "CONST_ARRAYS": "".join(f"constexpr double {key}[{arm.n}] = {{{_listed(x)}}};\n" for key, x in arrays.items()),

@@ -174,7 +174,7 @@ static double least(const search *f, double end) {
     return best.s;
 }
 
-static void inverse(const double *j, const double *v, double *rates, double *damping, double *largest, double *feasible) {
+static void damped_inverse(const double *j, const double *v, double *rates, double *damping, double *largest, double *feasible) {
     search f = {{0}, {0}, {{0}}, {0}, 0};
     double a[WIDE] = {0}, size = 0, top = 0, room, s, end;
     int i, k;
