@@ -103,7 +103,10 @@ def in_c(m: int, n: int, allowed: float) -> str:
     # Pairs of rows of the same sum, modulo m, have no row in common: a processor need not wait for one to begin another.
     pairs = sorted(combinations(range(m), 2), key=lambda pair: sum(pair) % m) or [(0, 0)]
     words["PAIRS"] = ", ".join(f"{{{a}, {b}}}" for a, b in pairs)
-    words["SUM"] = " + ".join(f"f->rows[{k}][i] * r[{k}]" for k in range(m))
+    sums = {"RATE": "f->rows[#][i] * r[#]", "HEALTHY": "squares[#]", "TURNING": "squares[#] * r[#] * f->squares[#]"}
+    sums["STEEP"] = "f->rows[#][worst] * r[#] * r[#]"
+    words |= {key: " + ".join(x.replace("#", str(k)) for k in range(m)) for key, x in sums.items()}
+    words["PRODUCTS"] = " + ".join(f"a[k + {i}] * b[k + {i}]" for i in range(0, n, 4))
     return filled("holdfast.control", "c", "damping_search.c", {f"CONST_{key}": x for key, x in words.items()})
 
 

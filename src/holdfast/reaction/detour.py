@@ -16,10 +16,7 @@ _PARTS = 16  # of the way to a posture, for the length of the tool's
 
 
 def postures(arm: Arm, q: Array, mask: Array) -> Array:
-    """(K, n) around a configuration (n,), rad and m: all joints nearer to their middle, or one at its middle or beyond.
-
-    Joints whose mask (n,) is 0 stay where they are.
-    """
+    """(K, n) around q (n,), rad and m: joints with a mask of 1 nearer to their middle, or one of them there or beyond."""
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
     middle = np.where(bounded, (np.where(bounded, arm.lower, 0.0) + np.where(bounded, arm.upper, 0.0)) / 2, q)
     found = [q + mask * depth * (middle - q) for depth in DEPTHS]

@@ -22,10 +22,9 @@ static double larger(double a, double b) {
 }
 
 static double product(const double *a, const double *b) {
-    double sum[4] = {0, 0, 0, 0};
-    int i, k;
-    for (i = 0; i < WIDE; i += 4)
-        for (k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
+    double sum[4];
+    int k;
+    for (k = 0; k < 4; ++k) sum[k] = CONST_PRODUCTS;
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
@@ -63,22 +62,17 @@ static void orthogonal(search *f) {
 }
 
 static point at(const search *restrict f, double s) {
-    double r[ROWS], a[WIDE], sizes[WIDE], healthy = 0, turning = 0, b = 0;
+    double r[ROWS], squares[ROWS], a[WIDE], sizes[WIDE];
     point out;
     int i, k, worst = 0;
     for (k = 0; k < ROWS; ++k) r[k] = 1 / (f->squares[k] + s);
-    for (i = 0; i < WIDE; ++i) a[i] = CONST_SUM;
+    for (k = 0; k < ROWS; ++k) squares[k] = f->c[k] * r[k] * (f->c[k] * r[k]);
+    for (i = 0; i < WIDE; ++i) a[i] = CONST_RATE;
     for (i = 0; i < WIDE; ++i) sizes[i] = a[i] * a[i] * (s + s + f->columns[i]);
     for (i = 1; i < JOINTS; ++i) worst = sizes[i] > sizes[worst] ? i : worst;
-    for (k = 0; k < ROWS; ++k) {
-        double y = f->c[k] * r[k], square = y * y;
-        healthy += square;
-        turning += square * r[k] * f->squares[k];
-        b += f->rows[k][worst] * r[k] * r[k];
-    }
     out.s = s;
-    out.value = f->missing + s * s * healthy + sizes[worst];
-    out.slope = 2 * s * turning + 2 * a[worst] * (a[worst] - b * (s + s + f->columns[worst]));
+    out.value = f->missing + s * s * (CONST_HEALTHY) + sizes[worst];
+    out.slope = 2 * s * (CONST_TURNING) + 2 * a[worst] * (a[worst] - (CONST_STEEP) * (s + s + f->columns[worst]));
     return out;
 }
 
