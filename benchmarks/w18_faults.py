@@ -302,9 +302,9 @@ def in_c(chosen: argparse.Namespace) -> str:
             parts = ("law.c", "law_monitor.c", "law_controller_law.c", "law_controller_monitor.c")
             objects = ("law_controller_law.o", "law_controller_monitor.o")
             for command in (
-                ["cc", "-std=c99", "-O2", "-c", *parts],
-                ["cc", "-std=c99", "-O2", "timer.c", "law.o", "law_monitor.o", "-lm", "-o", "timer_c"],
-                ["c++", "-std=c++17", "-O2", "timer.cpp", "law_controller.cpp", *objects, "-o", "timer_cpp"],
+                ["cc", "-std=c99", "-O3", "-c", *parts],
+                ["cc", "-std=c99", "-O3", "timer.c", "law.o", "law_monitor.o", "-lm", "-o", "timer_c"],
+                ["c++", "-std=c++17", "-O3", "timer.cpp", "law_controller.cpp", *objects, "-o", "timer_cpp"],
             ):
                 subprocess.run(command, cwd=folder, check=True)
             for what in ("c", "cpp"):
