@@ -105,10 +105,8 @@ class Controller:
         self._usual = 1.0  # pace with what has failed so far
         self._named: str | None = None  # the joint that the alarm is about, once something is done about it
         self._braked = -1  # the last joint that was
-        self._tries, self._looked = (
-            list[What](),
-            False,
-        )  # ways round that are left after a brake; whether the law was followed ahead
+        self._tries = list[What]()  # ways round that are left after a brake
+        self._looked = False  # whether the law was followed ahead since
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
         self._poses, self._seen = list[tuple[Array, Array]](), False
         self._planned: Planned | None = None
