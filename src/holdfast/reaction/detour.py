@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.reaction.masked import MaskedLaw
 
@@ -18,7 +19,7 @@ _PARTS = 16  # of the way to a posture, for the length of the tool's
 def postures(arm: Arm, q: Array, mask: Array) -> Array:
     """(K, n) around q (n,), rad and m: joints with a mask of 1 nearer to their middle, or one of them there or beyond."""
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
-    middle = np.where(bounded, (np.where(bounded, arm.lower, 0.0) + np.where(bounded, arm.upper, 0.0)) / 2, q)
+    middle = np.where(bounded, np.mean(finite_limits(arm), axis=0), q)
     found = [q + mask * depth * (middle - q) for depth in DEPTHS]
     for j in np.flatnonzero(mask):
         for place in (middle[j], 2 * middle[j] - q[j]) if bounded[j] else (q[j] - TURN, q[j] + TURN):

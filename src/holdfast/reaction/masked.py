@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import target_poses
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
@@ -63,7 +64,7 @@ class MaskedLaw:
             self.pose[:3, 3] = rows[0] @ law.task.rows[:, :3]
         self.mask, self.miss, self.turn = np.ones(n), np.inf, np.inf
         bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
-        self._middle = np.where(bounded, (np.where(bounded, arm.lower, 0) + np.where(bounded, arm.upper, 0)) / 2, 0.0)
+        self._middle = np.mean(finite_limits(arm), axis=0)
         self._pull, self._n, self._rows = np.where(bounded, centring, 0.0), n, law.task.m
         self._lower, self._upper = arm.lower + NEAR, arm.upper - NEAR
         self._kernel, self._gain = masked_kernel(law), law.gain
