@@ -341,8 +341,6 @@ class Controller:
         """By way of another posture, else along a route; else the arm stops, or follows the law where no route is asked for."""
         left = self.degraded
         assert left is not None
-        if self._watch is not None and self._named is not None:
-            self._go_on()
         while self._tries:
             way = self._tries.pop(0)
             found = self._by_posture(q, left) if way == "detour" else self._by_route(time, q, left)
@@ -381,6 +379,8 @@ class Controller:
             left = Degraded(self.arm, ranges={j: (low, high)})
             found = planned(self._made_for, q, self.law.pose, left)
             if not isinstance(found, str):
+                if self._named == joint:  # or what was heard of it before the release would brake it again
+                    self._go_on()
                 self._trial, self.law.mask[j], self.pace, self._usual = j, 1.0, TRIAL, TRIAL
                 self._lost, self._heard = 0.0, time
                 self._lower[j], self._upper[j] = low, high
