@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import holdfast as hf
+from cells import placed
 
 CALL = ["simulate", "panda", "--start", "0 0 0 -1.5 0 1.5 0", "--target", "0.3,0.4,0.6", "--task", "position"]
 CALL += ["--law", "damped:0.02", "--gain", "2", "--speed-limit", "0.25"]
@@ -33,10 +35,23 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     found = ask(*CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--out", "chain")
     assert (found["ok"], found["react"], list(found["braked"])) == (True, "chain", ["panda_joint4"])
     assert found["noticed_s"] > 0.4
+    ask(*CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--csv", "motion.csv")
+    motion = np.genfromtxt("motion.csv", delimiter=",", names=True)
+    k = np.searchsorted(motion["time_s"], 1.2)  # the brake is at 0.5 s, the end at 2 s and more
+    hf.Cell([hf.cell.Sphere("lamp", 0.03, pose=placed(*(motion[f"tool_{axis}_m"][k] for axis in "xyz")))]).save("cell.yaml")
+    clear = ask(
+        *CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--cell", "cell.yaml", "--out", "cell"
+    )
+    assert (clear["ok"], clear["contacts"]) == (True, [])
+    page = (tmp_path / "cell" / "report.html").read_text(encoding="utf-8")
+    assert "clear of the cell" in page
+    assert "lamp" in page
+    assert {a["what"] for a in clear["actions"]} & {"detour", "plan"}
     page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
     assert "no certified safety function" in page
     assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
     assert "--notice is of an arm with bodies, motors and sensors; add --physics" in refused(*CALL, "--notice", "bounds.json")
+    assert "--stop-at-contact does not go with" in refused(*CALL, "--physics", "--record", "run.npz", "--stop-at-contact")
     assert "--record is of an arm" in refused(*CALL, "--record", "run.npz")
     for more in (["--faults", "faults.yaml"], ["--notice", "bounds.json"], ["--record", "run.npz"]):
         assert "--lock does not go with --faults" in refused(*CALL, "--physics", "--lock", "1", *more)

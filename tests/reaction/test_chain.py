@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import holdfast as hf
+from cells import placed
 from holdfast.errors import HoldfastError, InputError
 from holdfast.faults import FaultEvent
 from holdfast.reaction.detour import postures
@@ -14,6 +17,7 @@ from holdfast.reaction.masked import MaskedLaw
 pytest.importorskip("mujoco")
 BODY = hf.Body(3)
 START, GOAL = np.array([0.0, 0.0, 0.0, -1.5, 0.0, 1.5, 0.0]), np.array([0.3, 0.4, 0.6])
+LOCKED = FaultEvent("locked", "panda_joint3", 0.5)
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +109,41 @@ def test_where_the_law_would_end_off_its_target_it_goes_by_another_posture_or_al
     for run in (detour, route):
         assert (run.q >= law.arm.lower - 5e-3).all()
         assert (run.q <= law.arm.upper + 5e-3).all()
+
+
+@pytest.fixture(scope="module")
+def ball(law):
+    """A cell with a ball where the tool passes on its way, if nobody looks out for it."""
+    passed = run(law, LOCKED, react="known").poses[:, :3, 3]
+    gone = np.cumsum(np.linalg.norm(np.diff(passed, axis=0, prepend=passed[:1]), axis=1))
+    return hf.Cell([hf.cell.Sphere("ball", 0.04, pose=placed(*passed[np.searchsorted(gone, 0.6 * gone[-1])]))])
+
+
+def test_after_a_brake_the_arm_keeps_clear_of_a_cell(law, ball, monkeypatch):
+    blind = run(law, LOCKED, react="known").require_ok()
+    detour = run(law, LOCKED, react="known", cell=ball, plan=False).require_ok()
+    assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
+    assert "the law would not get there clear of the cell" in detour.actions[-1].why
+    monkeypatch.setattr("holdfast.reaction.controller.better_posture", lambda *args, **given: None)
+    route, stopped = (run(law, LOCKED, react="known", cell=ball, plan=plan) for plan in (True, False))
+    assert [a.what for a in route.require_ok().actions] == ["alarm", "brake", "plan"]
+    assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no other posture helps")
+    for kept in (detour, route, stopped):
+        assert detour.clearance.sign(kept.q[::10]).all()  # of the meshes, by another library
+        assert (kept.contacts, kept.describe()[-1]) == ((), "it touched nothing")
+    touched = replace(blind, clearance=detour.clearance)
+    assert not detour.clearance.sign(blind.q[::10]).all()
+    assert {contact.object for contact in touched.contacts} == {"ball"}
+    first = next(t for t, q in zip(blind.time, blind.q, strict=True) if detour.clearance(q) <= 0)
+    assert touched.contacts[0].time == pytest.approx(first, abs=2e-3)
+    assert any("touches ball" in line for line in touched.describe())
+
+
+def test_what_already_touches_something_stops(law, ball):
+    at = hf.Cell([hf.cell.Sphere("wall", 0.2, pose=placed(*law.arm.forward_kinematics(START)[:3, 3]))])
+    stuck = run(law, LOCKED, react="known", cell=at)
+    assert (stuck.outcome, stuck.actions[-1].what) == ("stopped", "stop")
+    assert stuck.contacts[0].time == 0
 
 
 @pytest.mark.parametrize("task", ["position", "pose"])

@@ -10,6 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.diagnosis import Verdict
 from holdfast.reaction.controller import Controller
+from holdfast.reaction.masked import MaskedLaw
 from holdfast.reaction.plan import planned
 
 JOINTS = hf.arms.load("panda").joint_names
@@ -23,8 +24,8 @@ class Robot:
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
         law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
         law.ahead, law.arm = lambda q, most: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
-        made_for = SimpleNamespace(arm=arm, speed_limit=None)
-        self.controller = Controller(law, made_for, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
+        law.whole, law.clearance = SimpleNamespace(arm=arm, speed_limit=None), None
+        self.controller = Controller(law, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 
     def brake(self, joint):
         self.braked.append(joint)
@@ -212,7 +213,7 @@ def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
 
 def test_a_route_is_run_through_at_its_pace_and_slowed_down_keeps_to_its_line():
     arm = hf.arms.load("panda")
-    law = hf.control.damped(arm, 0.02, speed_limit=0.25)
+    law = MaskedLaw(hf.control.damped(arm, 0.02, speed_limit=0.25), np.eye(4), centring=0.0)
     q = np.array([0.2, 0.3, 0.1, -1.6, 0.4, 1.5, 0.3])
     goal = arm.forward_kinematics(q + np.array([0.5, -0.3, 0.4, 0.0, 0.6, 0.2, -0.4]))
     lines = []

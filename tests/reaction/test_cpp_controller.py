@@ -65,7 +65,6 @@ class Driven:
         self.masked = MaskedLaw(self.law, np.eye(4), centring=0.0)
         self.ours = Controller(
             self.masked,
-            self.law,
             bounds=self.bounds,
             brakes=self,
             watch=self.monitor,

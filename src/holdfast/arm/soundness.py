@@ -77,19 +77,6 @@ def require_possible_inertia(arm: Machine) -> None:
         raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
 
 
-def require_inertia(arm: Machine) -> None:
-    """Raise :class:`ArmError` unless every link is known, with mass and a possible inertia.
-
-    Raises:
-        ArmError: The first link that is not, and why.
-    """
-    for joint, link in zip(arm.joints, arm.links, strict=True):
-        for finding in _link(link, joint):
-            raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
-    for finding in [] if arm.payload is None else _body(arm.payload, "payload"):
-        raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
-
-
 def _joint(joint: Joint) -> list[Finding]:
     subject = f"joint '{joint.name}'"
     warnings = []

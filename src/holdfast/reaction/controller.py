@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
-from holdfast.control.law import Law
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.kinds import Verdict
 from holdfast.failures import Degraded
@@ -71,7 +70,6 @@ class Controller:
 
     Args:
         law: The law, masked by this class.
-        made_for: The law that it is of.
         bounds: Of the monitor; None without one.
         brakes: Of the joints.
         watch: The monitor; None without one.
@@ -86,17 +84,9 @@ class Controller:
     """
 
     def __init__(
-        self,
-        law: MaskedLaw,
-        made_for: Law,
-        *,
-        bounds: Bounds | None,
-        brakes: Brakes,
-        watch: Watch | None,
-        react: React,
-        plan: bool,
+        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: Brakes, watch: Watch | None, react: React, plan: bool
     ) -> None:
-        self.law, self.arm, self._made_for = law, made_for.arm, made_for
+        self.law, self.arm = law, law.arm
         self._bounds, self._brakes, self._watch, self._react, self._plans = bounds, brakes, watch, react, plan
         self.pace, self.over, self.actions, self.verdicts = 1.0, False, list[Action](), list[Verdict]()
         self._pace = self._time = self._since = 0.0
@@ -347,18 +337,19 @@ class Controller:
             if not isinstance(found, str):
                 self._planned, self._pace = found, 0.0
                 what = "another posture first, which" if way == "detour" else f"a route of {found.waypoints} waypoints"
-                self._act(time, way, f"the law would end elsewhere; {what} takes {found.duration:.3g} s")
+                others = "" if self.law.clearance is None else f" clear of {self.law.clearance.others}"
+                self._act(time, way, f"the law would not get there{others}; {what} takes {found.duration:.3g} s")
                 break
-            if way == "plan":
+            if way == "plan" or not (self._plans or self.law.clearance is None):
                 self._stop(time, found)
         return np.zeros(self.arm.n)
 
     def _by_posture(self, q: Array, left: Degraded) -> Planned | str:
-        via = better_posture(self.law, q, most=self._most, fastest=self._made_for.speed_limit)
-        return "no other posture helps" if via is None else planned(self._made_for, q, via, left)
+        via = better_posture(self.law, q, most=self._most, fastest=self.law.whole.speed_limit)
+        return "no other posture helps" if via is None else planned(self.law, q, via, left)
 
     def _by_route(self, time: float, q: Array, left: Degraded) -> Planned | str:
-        found = planned(self._made_for, q, self.law.pose, left)
+        found = planned(self.law, q, self.law.pose, left)
         return self._tried(time, q) or found if isinstance(found, str) else found
 
     def _tried(self, time: float, q: Array) -> Planned | None:
@@ -377,7 +368,7 @@ class Controller:
             if not ends[0] <= low < high <= ends[1]:
                 continue
             left = Degraded(self.arm, ranges={j: (low, high)})
-            found = planned(self._made_for, q, self.law.pose, left)
+            found = planned(self.law, q, self.law.pose, left)
             if not isinstance(found, str):
                 if self._named == joint:  # or what was heard of it before the release would brake it again
                     self._go_on()

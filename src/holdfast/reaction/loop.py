@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.mjcf import import_mujoco, quiet
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.diagnosis.monitor import Monitor
 from holdfast.errors import InputError
@@ -52,6 +54,8 @@ def simulate_faults(
     body: Body | None = None,
     servos: Servos | None = None,
     centring: float = 0.0,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
     pose: bool = True,
     time_limit: float = TIME_LIMIT,
     seed: int = 0,
@@ -75,7 +79,10 @@ def simulate_faults(
       ranges, or one of them turned over. Where there is none :func:`holdfast.recover` plans a route. Neither takes simulated
       time. If it finds no route, but would find one with the braked joint, the brake is released, once, and the arm follows
       that route slowly, as fast as the joint can: a joint at a stop, or with a slow motor, looks like one that drives nothing.
-      If the joint does not follow it is braked again. Else the arm stops.
+      If the joint does not follow it is braked again. Else the arm stops;
+    * with a cell, or a clearance, the law must also keep clear on its way, in all that is looked at ahead of it, and postures
+      and routes are proved to (:func:`holdfast.recover`); where there is neither the arm stops, without ``plan`` too. Until a
+      joint is braked the law goes on as it is. Bodies meet nothing: what the arm touched is said afterwards (``contacts``).
 
     A brake stops its joint at once. From then on that joint is left out of what the monitor looks at, and the others are
     watched on: when a second one fails all of this follows once more, with what both have left. Between the brake and the end
@@ -94,6 +101,9 @@ def simulate_faults(
         body: What of the robot differs from the arm's model; :class:`holdfast.Body` as it comes if not given.
         servos: Of the joints; as they come, at the monitor's rate, if not given.
         centring: 1/s, at which the law draws joints to the middle of their range as far as the task leaves that open.
+        clearance: The shape of the arm and what it keeps clear of, maybe with a cell; True: also itself, by capsules of an
+            assumed radius. If not given it does not look out for itself.
+        cell: Objects around the arm, or their file.
         pose: Whether the tool's pose is measured.
         time_limit: s; the run ends earlier where the target is reached, or nothing more moves.
         seed: Of the noise.
@@ -119,11 +129,12 @@ def simulate_faults(
     start = law.arm.check_configurations(q0)
     if start.ndim != 1 or not np.isfinite(start).all():
         raise InputError(f"q0 has shape {start.shape}; a run starts from one configuration of finite numbers, ({law.arm.n},)")
+    looked = chosen_clearance(law.arm, clearance or False, cell, looks=False)
     made = Body() if body is None else body
-    masked = MaskedLaw(law, target, centring=centring)
+    masked = MaskedLaw(law, target, centring=centring, clearance=looked)
     robot = _Robot(law, start, made, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose)
     bounds = None if monitor is None else monitor.bounds
-    controller = Controller(masked, law, bounds=bounds, brakes=robot.injector, watch=monitor, react=how, plan=plan)
+    controller = Controller(masked, bounds=bounds, brakes=robot.injector, watch=monitor, react=how, plan=plan)
     outcome = _drive(robot, controller, masked, monitor if how in ("stop", "chain") else None, how, time_limit)
     places = np.full(law.arm.n, np.nan)
     for event, place in robot.began.items():
@@ -141,6 +152,7 @@ def simulate_faults(
         verdicts=tuple(controller.verdicts),
         degraded=controller.degraded,
         outcome=outcome,
+        clearance=looked,
         **robot.record(),
     )
 

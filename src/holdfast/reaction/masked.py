@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import target_poses
+from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
@@ -46,17 +47,21 @@ class MaskedLaw:
         law: The law.
         target: (4, 4) pose, or the task's rows (m,), m.
         centring: 1/s, at which joints with two limits are drawn to their middle as far as the task leaves it open.
+        clearance: What the arm keeps clear of where the law is followed ahead; None: of nothing.
 
     Attributes:
+        whole: The law, of all joints.
         arm: The law's.
+        clearance: As given.
         pose: (4, 4) of the target.
         mask: (n,) 1 for joints that follow, 0 for the others.
         miss, turn: Of the last step: how far the tool was from its target, m and rad.
     """
 
-    def __init__(self, law: Law, target: ArrayLike, *, centring: float) -> None:
+    def __init__(self, law: Law, target: ArrayLike, *, centring: float, clearance: Clearance | None = None) -> None:
         poses, rows = target_poses(law.task, target)
         self.arm, arm, n = law.arm, law.arm, law.arm.n
+        self.whole, self.clearance = law, clearance
         self.pose = np.eye(4)
         if rows is None:
             self.pose = np.asarray(poses[0])
@@ -96,7 +101,8 @@ class MaskedLaw:
     def ahead(self, q: Array, *, most: Array) -> Array:
         """(N,) s after which the law would be at its target from configurations (N, n); infinite where it ends elsewhere.
 
-        Joints are taken to follow at once, at rates (n,) of at most ``most``, rad/s and m/s.
+        Joints are taken to follow at once, at rates (n,) of at most ``most``, rad/s and m/s. Infinite also where the arm comes
+        too close to something at one of the instants, at most 50 ms apart, that are looked at.
         """
         step = min(STEP, 0.2 / self._gain)
         q, going, takes = q.copy(), np.arange(len(q)), np.full(len(q), np.inf)
@@ -107,6 +113,9 @@ class MaskedLaw:
             nearest[going[nearer]], since[going[nearer]] = off[nearer], time
             takes[going[off < THERE]] = time
             on = (off >= THERE) & (time - since[going] <= PATIENCE) & np.isfinite(rates).all(axis=1)
+            if self.clearance is not None:
+                near = ~(self.clearance.room(q[going]) >= 0)
+                takes[going[near]], on[near] = np.inf, False
             going, rates = going[on], rates[on]
             if not going.size:
                 break

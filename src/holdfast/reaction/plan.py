@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.control.law import Law
 from holdfast.failures import Degraded
+from holdfast.reaction.masked import MaskedLaw
 from holdfast.recovery import TimedMotion, recover
 
 Array = NDArray[np.float64]
@@ -52,19 +52,20 @@ class Planned:
         return np.asarray(rate * along + PULL * (there - q))
 
 
-def planned(law: Law, q: Array, goal: Array, left: Degraded) -> Planned | str:
+def planned(law: MaskedLaw, q: Array, goal: Array, left: Degraded) -> Planned | str:
     """A route to a goal, or a phrase with what is in its way. Planning takes no time: the arm waits.
 
     Args:
-        law: Whose task it is; its speed limit holds for the tool.
+        law: Whose task it is; its speed limit holds for the tool, and what it keeps clear of for the arm.
         q: (n,) where the arm is, rad and m.
         goal: (4, 4) pose of the tool, m, world; or (n,) a configuration.
         left: What is left of the arm.
     """
     start = np.clip(q, law.arm.lower, law.arm.upper)
-    task = law.task if goal.ndim == 2 else None
-    found = recover(law.arm, left, start, goal=goal, task=task, samples=0, clearance=False, accelerations=ACCELERATION)
+    task = law.whole.task if goal.ndim == 2 else None
+    clear = law.clearance or False
+    found = recover(law.arm, left, start, goal=goal, task=task, samples=0, clearance=clear, accelerations=ACCELERATION)
     if not found.ok or found.timed is None:
         gives = "" if found.given_up is None else f"; it could be met without {', '.join(found.given_up.names)}"
         return f"{found.ending.sentence}{gives}"
-    return Planned(found.timed, waypoints=len(found.q), most=law.speed_limit)
+    return Planned(found.timed, waypoints=len(found.q), most=law.whole.speed_limit)

@@ -22,6 +22,8 @@ from holdfast.result import Result
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
+    from holdfast.clearance.clearance import Clearance
+    from holdfast.clearance.contacts import Contact
     from holdfast.control.law import Law
     from holdfast.diagnosis.kinds import Verdict
 
@@ -83,6 +85,7 @@ class FaultRun(Result):
         verdicts: What each alarm came to.
         degraded: What is left of the arm: joints that were braked, with where they are; None if none was.
         outcome: ``reached``: within 5 mm and 1 deg of its target for 0.2 s; ``stopped``, ``missed`` or ``unstable``.
+        clearance: What the arm was to keep clear of; None: nothing.
         time: (T,) s.
         q: (T, n) where the joints were, rad and m.
         told: (T, n) what their sensors told.
@@ -105,6 +108,7 @@ class FaultRun(Result):
     verdicts: tuple[Verdict, ...]
     degraded: Degraded | None
     outcome: Ended
+    clearance: Clearance | None = None
     time: Array
     q: Array
     told: Array
@@ -152,6 +156,16 @@ class FaultRun(Result):
         """(T, 4, 4) of the end effector, m, world."""
         return self.arm.forward_kinematics(self.q)
 
+    @cached_property
+    def contacts(self) -> tuple[Contact, ...] | None:
+        """What the arm touched, the first time of each pair, in order of time; None if nobody looked."""
+        if self.clearance is None:
+            return None
+        from holdfast.clearance.contacts import first_contacts
+
+        rows = np.unique(np.r_[: len(self.time) : round(self.servos.rate / 100) or 1, len(self.time) - 1])
+        return tuple(first_contacts(self.clearance, self.time[rows], self.q[rows]))
+
     def log(self) -> Log:
         """What a robot would have recorded: for :func:`holdfast.diagnosis.calibrate` and ``diagnose``."""
         return Log(t=self.time, q_ref=self.reference, q=self.told, tau=self.torque, x=self.x, quat=self.quat)
@@ -167,6 +181,8 @@ class FaultRun(Result):
         lines += [action.sentence() for action in self.actions]
         if not self.actions and self.react != "none":
             lines.append("nothing was noticed")
+        if self.contacts is not None:
+            lines += [contact.sentence() for contact in self.contacts] or ["it touched nothing"]
         if self.false_alarm:
             lines.append("the first alarm is false, nothing had failed: the bounds do not hold for this motion")
         return lines

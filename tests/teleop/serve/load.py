@@ -18,11 +18,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from station_client import read_reply
 from websockets.asyncio.client import connect
 
 from holdfast.teleop.protocol.protocol import Protocol, Training, read_protocol
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.serve.messages import Ack, Welcome, read_reply
+from holdfast.teleop.serve.messages import Ack, Welcome
 
 PROGRAM = Path(__file__).with_name("serve_program.py")
 TEXTS = "title: x\nforms:\n- {name: consent, title: x, text: x, submit: x, questions: []}\n"

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field, TypeAdapter
 from websockets.sync.client import ClientConnection, connect
 
 from holdfast.teleop.protocol.printed_arm import law_of
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.serve import messages
+from holdfast.teleop.serve.messages import Ack, Bye, Pause, Refused, Unstored, Welcome
+
+_REPLIES = TypeAdapter(Annotated[Welcome | Ack | Refused | Pause | Unstored | Bye, Field(discriminator="type")])
+read_reply = _REPLIES.validate_json
 
 
 class Client:
@@ -21,17 +26,17 @@ class Client:
     def __init__(self, url: str, protocol: Protocol, code: str | None = None) -> None:
         self.url, self.protocol, self.code = url, protocol, code
         self.key: str | None = None
-        self.welcome: messages.Welcome | None = None
+        self.welcome: Welcome | None = None
         self.socket: ClientConnection | None = None
         self.outbox: list[dict] = []
         self.seq = 0
 
-    def connect(self, **more) -> messages.Welcome:
+    def connect(self, **more) -> Welcome:
         self.socket = connect(self.url, proxy=None, **more)
         hello = {"type": "hello", "format": 1, "session": self.key, "code": self.code if self.key is None else None}
         self.socket.send(json.dumps(hello | {"kind": "simulated"}))
         reply = self.receive()
-        assert isinstance(reply, messages.Welcome), reply
+        assert isinstance(reply, Welcome), reply
         self.key, self.welcome = reply.session, reply
         self.outbox = [m for m in self.outbox if m["seq"] > reply.seq]
         self.seq = max(self.seq, reply.seq)
@@ -53,8 +58,8 @@ class Client:
         return self.seq
 
     def receive(self, timeout: float = 30.0):
-        reply = messages.read_reply(self.socket.recv(timeout))
-        if isinstance(reply, messages.Ack):
+        reply = read_reply(self.socket.recv(timeout))
+        if isinstance(reply, Ack):
             self.outbox = [m for m in self.outbox if m["seq"] > reply.seq]
         return reply
 
@@ -62,7 +67,7 @@ class Client:
         """Wait until everything is acknowledged."""
         while self.outbox:
             reply = self.receive()
-            assert isinstance(reply, (messages.Ack, messages.Pause)), reply
+            assert isinstance(reply, (Ack, Pause)), reply
 
     def trial(self, kind: str, position: int, rng: np.random.Generator, cycles: int = 6, end: str | None = "aborted"):
         """A trial with random commands; the configurations from start to end."""

@@ -6,7 +6,7 @@ import urllib.request
 import numpy as np
 import pytest
 from serve_program import KEY
-from station_client import Client
+from station_client import Client, read_reply
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
@@ -40,7 +40,7 @@ def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, p
     assert "not there any more" in list_of(served)["fault"]
     with connect(served.url, proxy=None) as new:  # nobody begins a session either
         new.send(json.dumps({"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"}))
-        assert isinstance(messages.read_reply(new.recv(30)), Unstored)
+        assert isinstance(read_reply(new.recv(30)), Unstored)
     (tmp_path / "gone").rename(tmp_path / "experiment")
     client.connect()
     client.settle()
@@ -78,13 +78,13 @@ def test_a_lost_answer_makes_no_second_subject(server):
     for _ in range(2):
         with connect(server.url, proxy=None) as socket:
             socket.send(json.dumps(hello))
-            found.append(messages.read_reply(socket.recv(30)))
+            found.append(read_reply(socket.recv(30)))
     first, second = found
     assert isinstance(first, Welcome)
     assert (first.subject, first.session) == (second.subject, hello["fresh"])
     with connect(server.url, proxy=None) as socket:
         socket.send(json.dumps(hello | {"fresh": "fedcba9876543210" * 3}))
-        assert messages.read_reply(socket.recv(30)).subject != first.subject
+        assert read_reply(socket.recv(30)).subject != first.subject
 
 
 def test_pauses_survive_a_restart(start, tmp_path, protocol):

@@ -7,7 +7,7 @@ import threading
 
 import numpy as np
 import pytest
-from station_client import Client
+from station_client import Client, read_reply
 from test_serve_messages import malformed
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
@@ -195,11 +195,11 @@ def test_the_first_message_must_be_hello(server):
     for text in ('{"type":"event","seq":1,"kind":"x","data":{}}', "", "{", b"\xff\xfe"):
         with connect(server.url, proxy=None) as socket:
             socket.send(text)
-            reply = messages.read_reply(socket.recv(30))
+            reply = read_reply(socket.recv(30))
             assert (reply.type, reply.seq, reply.last) == ("refused", None, 0)
     with connect(server.url, proxy=None) as socket:
         socket.send(json.dumps({"type": "hello", "format": 1, "session": "x" * 24, "code": None, "kind": "person"}))
-        assert messages.read_reply(socket.recv(30)).type == "bye"
+        assert read_reply(socket.recv(30)).type == "bye"
         with pytest.raises(ConnectionClosed):
             socket.recv(30)
 

@@ -162,11 +162,7 @@ def ceiling(
     """
     model = chain.arm(arm)
     claim = hf.certificates.ceiling_claim(
-        model,
-        configurations.read(model, degrees),
-        below,
-        failures=read_failures(model, failures),
-        task=task,
+        model, configurations.read(model, degrees), below, failures=read_failures(model, failures), task=task
     )
     proved(claim, search, written, halvings=halvings, seed=seed)
 
@@ -195,11 +191,7 @@ def floor(
     """
     model = chain.arm(arm)
     claim = hf.certificates.floor_claim(
-        model,
-        configurations.read(model, degrees),
-        above,
-        failures=read_failures(model, failures),
-        task=task,
+        model, configurations.read(model, degrees), above, failures=read_failures(model, failures), task=task
     )
     proved(claim, search, written, halvings=halvings, seed=seed)
 

@@ -37,7 +37,8 @@ def command(
     faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
     episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
     notice: Annotated[
-        Path | None, "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts."
+        Path | None,
+        "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts, clear of --cell.",
     ] = None,
     record: Annotated[
         Path | None, "With --physics: write what the sensors told (.npz, .csv or .parquet), for calibrate and diagnose."
@@ -61,7 +62,7 @@ def command(
     q0 = read_configuration(made.arm, start, degrees, "--start")
     drawn_faults = None if faults is None else hf.faults.load(faults)
     if physics and (drawn_faults is not None or notice is not None or record is not None):
-        _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--cell": touched.cell})
+        _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--stop-at-contact": stop_at_contact})
         watch = None if notice is None else hf.diagnosis.Monitor(made.arm, hf.diagnosis.load(notice))
         found = hf.simulate_faults(
             made,
@@ -70,6 +71,7 @@ def command(
             faults=() if drawn_faults is None else drawn_faults,
             episode=episode,
             monitor=watch,
+            clearance=touched.read(made.arm),
             time_limit=12.0 if time_limit is None else time_limit,
             servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if watch is None else watch.bounds.rate),
         )
@@ -101,9 +103,7 @@ def command(
 def _refuse(others: dict[str, object]) -> None:
     given = next((name for name, value in others.items() if value), None)
     if given is not None:
-        raise InputError(
-            f"{given} does not go with --faults, --notice or --record: the faults file says what fails; leave it out"
-        )
+        raise InputError(f"{given} does not go with --faults, --notice or --record; leave it out")
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from holdfast.present.clearance.contacts import contact_entries
+from holdfast.present.clearance.shape import shape_text
 from holdfast.present.printing import Rows, number
 from holdfast.present.story import Story
 from holdfast.words import capitalised
@@ -35,7 +37,7 @@ def to_dict(run: FaultRun) -> dict[str, Any]:
         "q_final": dict(zip(run.arm.joint_names, run.q[-1], strict=True)),
         "body_seed": run.body.seed,
         "control_rate_hz": run.servos.rate,
-    }
+    } | ({} if run.contacts is None else {"contacts": contact_entries(run.contacts)})
 
 
 def key_table(run: FaultRun) -> Rows:
@@ -74,7 +76,10 @@ def story(run: FaultRun) -> Story:
                 "lines: a fault begins; it is noticed; something is done.",
             )
         },
-        method=[("Simulated", f"{number(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}")],
+        method=[
+            ("Simulated", f"{number(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
+            ("Clearance", "not looked at" if run.clearance is None else shape_text(run.clearance, 0.0)),
+        ],
         arm=run.arm,
     )
 
@@ -94,5 +99,6 @@ def _moving(run: FaultRun) -> list[tuple[str, list[Any]]]:
         readings=[f"{t:.2f} s" for t in run.time[rows]],
         locked=braked,
         targets=[run.target if run.law.task.angular else run.target[:3, 3]],
+        cell=None if run.clearance is None else run.clearance.cell,
     )
     return [("The motion", [Picture(shown.html("motion", words), words)])]

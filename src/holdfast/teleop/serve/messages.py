@@ -203,10 +203,8 @@ class Bye(Message):
 
 Sequenced = AnswersMessage | Begin | Cycles | EndMessage | Rate | EventMessage
 FromPage = Annotated[Hello | Sequenced, Field(discriminator="type")]
-FromServer = Annotated[Welcome | Ack | Refused | Pause | Unstored | Bye, Field(discriminator="type")]
 
 _FROM_PAGE: TypeAdapter[Hello | Sequenced] = TypeAdapter(FromPage)
-_FROM_SERVER: TypeAdapter[Welcome | Ack | Refused | Pause | Unstored | Bye] = TypeAdapter(FromServer)
 
 
 def read(text: str | bytes) -> Hello | Sequenced:
@@ -221,18 +219,6 @@ def read(text: str | bytes) -> Hello | Sequenced:
         raise InputError(sentence(error)) from None
     except ValueError as error:  # not Unicode
         raise InputError(f"the message is malformed: {error}") from None
-
-
-def read_reply(text: str | bytes) -> Welcome | Ack | Refused | Pause | Unstored | Bye:
-    """A message of the server: for clients in Python, such as tests.
-
-    Raises:
-        InputError: It is malformed.
-    """
-    try:
-        return _FROM_SERVER.validate_json(text)
-    except ValidationError as error:
-        raise InputError(sentence(error)) from None
 
 
 def sentence(error: ValidationError) -> str:
