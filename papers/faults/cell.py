@@ -1,0 +1,98 @@
+"""A ball in the way of what is left of an arm: whether the chain still finishes its task, and what the arm touches."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+
+import holdfast as hf
+from holdfast.diagnosis import Monitor
+from holdfast.faults import FaultEvent
+from papers.faults.chain import CALIBRATION, CENTRING, HERE, ONSET, PLANNED_LIMIT, Trial, entries, made_with, options, percent
+from papers.faults.second import KINDS
+
+TASKS, DRAWS = 6300, 63  # seeds
+RADIUS, MARGIN, AWAY = 0.04, 0.01, 0.15  # m; away: from the tool where it was braked, and from the target
+
+
+def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None:
+    """What became of a task; None where it is not finished without the ball, nothing is braked, or no ball has a place."""
+    rng = np.random.default_rng([DRAWS, trial.number])
+    kind, joint, onset = rng.choice(KINDS), arm.joint_names[rng.integers(arm.n)], float(rng.uniform(*ONSET))
+    common: dict[str, Any] = {"body": trial.body, "seed": trial.number, "centring": CENTRING, "time_limit": PLANNED_LIMIT}
+    common |= {"faults": [FaultEvent(kind, joint, onset)], "monitor": monitor}
+    free = hf.simulate_faults(trial.law, trial.q0, trial.target, **common)
+    brake = next((a.time for a in free.actions if a.what == "brake"), None)
+    if not free.ok or brake is None:
+        return None
+    tool = free.poses[:, :3, 3]
+    ends = tool[[int(np.searchsorted(free.time, brake)), -1]]
+    away = np.linalg.norm(tool[:, None] - ends, axis=2).min(axis=1)
+    places = np.flatnonzero((away > AWAY) & (free.time > brake))
+    if not places.size:
+        return None
+    cell = hf.Cell([hf.cell.Sphere("ball", RADIUS, pose=free.poses[rng.choice(places)], margin=MARGIN)])
+    kept = hf.simulate_faults(trial.law, trial.q0, trial.target, cell=cell, **common)
+    before = replace(free, clearance=kept.clearance).contacts or ()
+    if not before or before[0].time <= brake:
+        return None
+    did = {action.what for action in kept.actions}
+    return {
+        "number": trial.number,
+        "kind": str(kind),
+        "task": trial.law.task.name,
+        "finished": kept.ok,
+        "by a posture": kept.ok and "detour" in did and "plan" not in did,
+        "by a route": kept.ok and "plan" in did,
+        "stopped": kept.outcome == "stopped",
+        "touched": bool(kept.contacts),
+        "why": [action.sentence() for action in kept.actions],
+        "contacts": [contact.sentence() for contact in kept.contacts or ()],
+    }
+
+
+COLUMNS = ("finished", "by a posture", "by a route", "stopped", "touched")
+
+
+def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Of all tasks, by task, and by kind of the fault."""
+    groups = {"all": list(rows)} | {name: [r for r in rows if r["task"] == name] for name in ("position", "pose")}
+    groups |= {kind: [row for row in rows if row["kind"] == kind] for kind in KINDS}
+    lines = [f"| | tasks | {' | '.join(COLUMNS)} |", "|" + "---|" * (len(COLUMNS) + 2)]
+    for name, some in groups.items():
+        lines.append(f"| {name} | {len(some)} | {' | '.join(percent(some, column) for column in COLUMNS)} |")
+    return lines
+
+
+def main() -> None:
+    """Make the table of one arm and write it; what a run before has judged is taken from the store."""
+    chosen = options("cell", __doc__, (10, "tasks with a ball in the way"))
+    arm = hf.arms.load(chosen.arm)
+    rows = entries(arm, judged, chosen, seed=TASKS)
+    text = [
+        f"# A ball in the way, {arm.title}",
+        "",
+        f"Written by `python -m papers.faults.cell --arm {chosen.arm} --tasks {chosen.tasks} --robots {chosen.robots}` on "
+        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {TASKS} (tasks and robots), {DRAWS} (faults and balls), "
+        f"{CALIBRATION} (calibration). Everything is **simulated**.",
+        "",
+        "Robots, tasks and law are those of the chain, other seeds. One joint locks, swings freely or has a frozen sensor, and "
+        f"is braked. Then there is a ball, {100 * RADIUS:g} cm in radius, from which {100 * MARGIN:g} cm are kept, where the "
+        "tool passed on the rest of its way when there was none, at least "
+        f"{100 * AWAY:g} cm from where it was braked and from the target. So each task is finished without the ball, and "
+        "**each would touch it if nobody looked out**. Touched: the links' capsules, which hold the links, touch the ball. "
+        "Whether there is a way round is not known. Fractions are in per cent, with 95 % intervals.",
+        "",
+        *table(rows),
+        "",
+    ]
+    (HERE / f"CELL-{chosen.arm}.md").write_text("\n".join(text), encoding="utf-8")
+    print("\n" + "\n".join(text))
+
+
+if __name__ == "__main__":
+    main()
