@@ -17,6 +17,7 @@ from papers.faults.second import KINDS
 
 TASKS, DRAWS = 6300, 63  # seeds
 RADIUS, MARGIN, AWAY = 0.04, 0.01, 0.15  # m; away: from the tool where it was braked, and from the target
+STOPPING = 0.15  # s after the brake in which the arm comes to rest and waits
 
 
 def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None:
@@ -36,10 +37,15 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     if not places.size:
         return None
     cell = hf.Cell([hf.cell.Sphere("ball", RADIUS, pose=free.poses[rng.choice(places)], margin=MARGIN)])
-    kept = hf.simulate_faults(trial.law, trial.q0, trial.target, cell=cell, **common)
-    before = replace(free, clearance=kept.clearance).contacts or ()
-    if not before or before[0].time <= brake:
+    try:
+        clearance = hf.Clearance(arm, cell=cell, itself=False)
+    except hf.InputError:  # it would be in the arm's base
         return None
+    stopping = free.q[(free.time >= brake) & (free.time <= brake + STOPPING)]
+    touched = replace(free, clearance=clearance).contacts
+    if not touched or touched[0].time <= brake or not (clearance.room(stopping) >= 0).all():
+        return None
+    kept = hf.simulate_faults(trial.law, trial.q0, trial.target, clearance=clearance, **common)
     did = {action.what for action in kept.actions}
     return {
         "number": trial.number,
@@ -82,8 +88,8 @@ def main() -> None:
         "",
         "Robots, tasks and law are those of the chain, other seeds. One joint locks, swings freely or has a frozen sensor, and "
         f"is braked. Then there is a ball, {100 * RADIUS:g} cm in radius, from which {100 * MARGIN:g} cm are kept, where the "
-        "tool passed on the rest of its way when there was none, at least "
-        f"{100 * AWAY:g} cm from where it was braked and from the target. So each task is finished without the ball, and "
+        f"tool passed on the rest of its way when there was none, at least {100 * AWAY:g} cm from where it was braked and from "
+        "the target, and not in the way of an arm that is stopping. So each task is finished without the ball, and "
         "**each would touch it if nobody looked out**. Touched: the links' capsules, which hold the links, touch the ball. "
         "Whether there is a way round is not known. Fractions are in per cent, with 95 % intervals.",
         "",

@@ -24,7 +24,7 @@ class Robot:
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
         law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
         law.ahead, law.arm = lambda q, most: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
-        law.whole, law.clearance = SimpleNamespace(arm=arm, speed_limit=None), None
+        law.whole, law.clearance, law.clear = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
         self.controller = Controller(law, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 
     def brake(self, joint):
@@ -166,6 +166,25 @@ def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
         robot.hear(3.2, alarm=False, behind=behind, v=v, wanted=0.3)
         assert robot.controller.pace == pytest.approx(pace)
     assert robot.controller.law.mask[1] == 1
+
+
+def test_what_is_left_of_the_law_is_left_before_something_is_near():
+    """Each cycle asks where the arm is after twice the way that it takes to stop at 10 rad/s^2; before a brake none does."""
+    robot = Robot(rates=0.3)
+    law, asked = robot.controller.law, []
+    law.clearance = SimpleNamespace(others="the cell")
+    law.ahead = lambda q, most: np.full(len(q), 0.0 if len(q) == 1 else np.inf)  # it would end well; no posture does
+    law.clear = lambda q: asked.append(q) or bool(q.max() < 0.105)
+    for k in range(500):
+        robot.controller.rates(1e-3 * k, np.full(7, 0.1))
+    assert not asked
+    robot.hear(0.5, kind="locked")
+    sent = np.array([robot.controller.rates(0.5 + 1e-3 * k, np.full(7, 0.1)) for k in range(600)])
+    assert robot.did() == ["alarm", "brake", "stop"]
+    assert robot.controller.actions[-1].why == "no other posture helps"
+    after = sent[100:]  # it has stopped after the brake, goes on, and stops again
+    assert after.max() == pytest.approx(np.sqrt(0.005 * 10), abs=2e-3)
+    assert (sent[-1] == 0).all()
 
 
 @pytest.mark.parametrize("falls", [True, False])

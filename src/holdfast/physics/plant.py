@@ -24,13 +24,7 @@ class Plant:
     """The arm with the healthy joints driven and the others welded."""
 
     def __init__(
-        self,
-        arm: Arm,
-        q: Array,
-        rates: Array,
-        healthy: NDArray[np.bool_],
-        servos: Servos,
-        around: Clearance | None = None,
+        self, arm: Arm, q: Array, rates: Array, healthy: NDArray[np.bool_], servos: Servos, around: Clearance | None = None
     ) -> None:
         self.mujoco = mujoco = import_mujoco()
         self.arm, self.start, self.servos, self._around = arm, q, servos, around

@@ -147,11 +147,11 @@ class Controller:
         if self._planned is not None:
             if not self._planned.over:
                 return self._planned.rates(q, pace=self._pace, dt=dt)
-            self._planned, self._since, self._nearest = None, time, np.inf
+            self._planned, self._since, self._nearest, self._looked = None, time, np.inf, False
         rates = self.law.rates(q)
         if self._waits(time):
             self._pace, self._since, self._nearest = 0.0, time, np.inf  # the arm waits until it knows where that joint is
-        elif self._tries and not self.over and self.law.mask.min() == 0 and self._ends_elsewhere(time, q, rates):
+        elif self._ends_elsewhere(time, q, rates):
             return self._way_round(time, q)
         return self._pace * rates
 
@@ -160,7 +160,13 @@ class Controller:
         return bool(np.isfinite(self._settled) and time <= self._settled + later)
 
     def _ends_elsewhere(self, time: float, q: Array, rates: Array) -> bool:
-        """The law does not lead to its target: followed ahead, once after each brake, or because it is at its end."""
+        """What is left of the law does not lead to its target: too near something, followed ahead, or at its end."""
+        if self.over or self.law.mask.min() > 0:
+            return False
+        if not self.law.clear(q + self._commanded * np.abs(self._commanded) / ACCELERATION):  # twice the way it takes to stop
+            return True
+        if not self._tries:
+            return False
         if not self._looked:
             self._looked = True
             if not np.isfinite(self.law.ahead(q[None], most=self._most)[0]):
@@ -331,17 +337,18 @@ class Controller:
         """By way of another posture, else along a route; else the arm stops, or follows the law where no route is asked for."""
         left = self.degraded
         assert left is not None
+        why = last = "the law would not get there" + (f" clear of {self.law.clearance.others}" if self.law.clearance else "")
         while self._tries:
             way = self._tries.pop(0)
             found = self._by_posture(q, left) if way == "detour" else self._by_route(time, q, left)
             if not isinstance(found, str):
                 self._planned, self._pace = found, 0.0
                 what = "another posture first, which" if way == "detour" else f"a route of {found.waypoints} waypoints"
-                others = "" if self.law.clearance is None else f" clear of {self.law.clearance.others}"
-                self._act(time, way, f"the law would not get there{others}; {what} takes {found.duration:.3g} s")
-                break
-            if way == "plan" or not (self._plans or self.law.clearance is None):
-                self._stop(time, found)
+                self._act(time, way, f"{why}; {what} takes {found.duration:.3g} s")
+                return np.zeros(self.arm.n)
+            last = found
+        if self._plans or self.law.clearance is not None:
+            self._stop(time, last)
         return np.zeros(self.arm.n)
 
     def _by_posture(self, q: Array, left: Degraded) -> Planned | str:

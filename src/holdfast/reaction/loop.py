@@ -80,9 +80,9 @@ def simulate_faults(
       time. If it finds no route, but would find one with the braked joint, the brake is released, once, and the arm follows
       that route slowly, as fast as the joint can: a joint at a stop, or with a slow motor, looks like one that drives nothing.
       If the joint does not follow it is braked again. Else the arm stops;
-    * with a cell, or a clearance, the law must also keep clear on its way, in all that is looked at ahead of it, and postures
-      and routes are proved to (:func:`holdfast.recover`); where there is neither the arm stops, without ``plan`` too. Until a
-      joint is braked the law goes on as it is. Bodies meet nothing: what the arm touched is said afterwards (``contacts``).
+    * with a cell, or a clearance, the law must keep clear as well where it is followed ahead, and is left where the arm could
+      hardly stop any more; postures and routes are proved to be clear (:func:`holdfast.recover`), and where there is none the
+      arm stops, without ``plan`` too. Until a joint is braked nobody looks out. ``contacts`` says what was touched.
 
     A brake stops its joint at once. From then on that joint is left out of what the monitor looks at, and the others are
     watched on: when a second one fails all of this follows once more, with what both have left. Between the brake and the end

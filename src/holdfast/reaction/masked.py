@@ -98,6 +98,10 @@ class MaskedLaw:
         out = self._run(self._row)
         return float(out[self._n]), float(out[self._n + 1])
 
+    def clear(self, q: Array) -> NDArray[np.bool_]:
+        """Whether the arm is as far from everything as it must be, (N,) for configurations (N, n), or a scalar for one."""
+        return np.ones(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.room(q) >= 0
+
     def ahead(self, q: Array, *, most: Array) -> Array:
         """(N,) s after which the law would be at its target from configurations (N, n); infinite where it ends elsewhere.
 
@@ -113,9 +117,8 @@ class MaskedLaw:
             nearest[going[nearer]], since[going[nearer]] = off[nearer], time
             takes[going[off < THERE]] = time
             on = (off >= THERE) & (time - since[going] <= PATIENCE) & np.isfinite(rates).all(axis=1)
-            if self.clearance is not None:
-                near = ~(self.clearance.room(q[going]) >= 0)
-                takes[going[near]], on[near] = np.inf, False
+            near = ~self.clear(q[going])
+            takes[going[near]], on[near] = np.inf, False
             going, rates = going[on], rates[on]
             if not going.size:
                 break

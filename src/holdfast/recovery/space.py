@@ -94,14 +94,7 @@ class Space:
     """
 
     def __init__(
-        self,
-        arm: Arm,
-        free: Flags,
-        clearance: Clearance | None,
-        margin: float,
-        around: Array,
-        *,
-        keep: Sequence[Kept] = (),
+        self, arm: Arm, free: Flags, clearance: Clearance | None, margin: float, around: Array, *, keep: Sequence[Kept] = ()
     ) -> None:
         self.arm, self.free, self.margin = arm, free, margin
         self._until = np.inf
