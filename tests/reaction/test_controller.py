@@ -150,7 +150,7 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
 
 def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
     route = SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
-    monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *given: "no route" if given[3].locked else route)
+    monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *given, most: "no route" if given[3].locked else route)
     robot = Robot(rates=0.0, plan=True)
     robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
     for time in (3.0, 3.1):
@@ -193,7 +193,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
     """At a stop, or slow, a joint looks as one that drives nothing."""
     asked, q, arm = [], np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), hf.arms.load("panda")
 
-    def some(law, q, target, left):
+    def some(law, q, target, left, most):
         asked.append(left)
         if left.locked or (left.ranges[JOINTS[1]][1] < arm.upper[1] and not at_a_stop):
             return "no route"
@@ -236,8 +236,9 @@ def test_a_route_is_run_through_at_its_pace_and_slowed_down_keeps_to_its_line():
     q = np.array([0.2, 0.3, 0.1, -1.6, 0.4, 1.5, 0.3])
     goal = arm.forward_kinematics(q + np.array([0.5, -0.3, 0.4, 0.0, 0.6, 0.2, -0.4]))
     lines = []
-    for pace in (1.0, 0.4):
-        route, here, line = planned(law, q, goal, hf.Degraded(arm, locked={3: q[3]})), q, [q]
+    limits = np.array([joint.velocity for joint in arm.joints])
+    for pace, most in ((1.0, limits), (0.4, limits), (1.0, np.full(7, 0.1))):
+        route, here, line = planned(law, q, goal, hf.Degraded(arm, locked={3: q[3]}), most=most), q, [q]
         while not route.over:
             here = here + 2e-3 * route.rates(here, pace=pace, dt=2e-3)
             line.append(here)
@@ -245,7 +246,9 @@ def test_a_route_is_run_through_at_its_pace_and_slowed_down_keeps_to_its_line():
         seconds = 2e-3 * (len(line) - 1)
         assert seconds == pytest.approx(route.duration / pace, rel=0.02)
         tool = np.linalg.norm(np.diff(arm.forward_kinematics(lines[-1])[:, :3, 3], axis=0), axis=1) / 2e-3
-        assert 0.2 * pace < tool.max() < 0.26 * pace
+        rates = np.abs(np.diff(lines[-1], axis=0)) / 2e-3
+        assert 0.2 * pace < tool.max() < 0.26 * pace if most is limits else 0.09 < rates.max() < 0.105
         assert arm.forward_kinematics(here) == pytest.approx(goal, abs=2e-3)
-    near = np.abs(lines[0][:, None, :] - lines[1][None, ::5, :]).max(axis=2).min(axis=1)
-    assert near.max() < 0.02
+    for other in lines[1:]:
+        near = np.abs(lines[0][:, None, :] - other[None, ::5, :]).max(axis=2).min(axis=1)
+        assert near.max() < 0.02

@@ -353,10 +353,10 @@ class Controller:
 
     def _by_posture(self, q: Array, left: Degraded) -> Planned | str:
         via = better_posture(self.law, q, most=self._most, fastest=self.law.whole.speed_limit)
-        return "no other posture helps" if via is None else planned(self.law, q, via, left)
+        return "no other posture helps" if via is None else planned(self.law, q, via, left, most=self._most)
 
     def _by_route(self, time: float, q: Array, left: Degraded) -> Planned | str:
-        found = planned(self.law, q, self.law.pose, left)
+        found = planned(self.law, q, self.law.pose, left, most=self._most)
         return self._tried(time, q) or found if isinstance(found, str) else found
 
     def _tried(self, time: float, q: Array) -> Planned | None:
@@ -375,7 +375,7 @@ class Controller:
             if not ends[0] <= low < high <= ends[1]:
                 continue
             left = Degraded(self.arm, ranges={j: (low, high)})
-            found = planned(self.law, q, self.law.pose, left)
+            found = planned(self.law, q, self.law.pose, left, most=self._most)
             if not isinstance(found, str):
                 if self._named == joint:  # or what was heard of it before the release would brake it again
                     self._go_on()

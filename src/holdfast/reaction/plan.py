@@ -21,18 +21,20 @@ class Planned:
 
     Args:
         motion: As it is at its fastest.
-        most: m/s, of the tool; None: as fast as that.
+        fastest: m/s, of the tool; None: as fast as that.
+        most: (n,) of the joints, rad/s and m/s. What the arm is told beyond that it would not do, and leave the route.
 
     Attributes:
         waypoints: Of the route, how many.
         duration: From its start to its end at the full pace, s.
     """
 
-    def __init__(self, motion: TimedMotion, *, waypoints: int, most: float | None) -> None:
+    def __init__(self, motion: TimedMotion, *, waypoints: int, fastest: float | None, most: Array) -> None:
         self.waypoints, self._motion, self._at = waypoints, motion, 0.0
         tool = (motion.arm.jacobian(motion.q)[:, :3] @ motion.qd[:, :, None])[..., 0]
-        fastest = np.inf if most is None else most
-        slow = np.minimum(SPEED, fastest / np.maximum(np.linalg.norm(tool, axis=1), 1e-9))
+        limit = np.inf if fastest is None else fastest
+        slow = np.minimum(SPEED, limit / np.maximum(np.linalg.norm(tool, axis=1), 1e-9))
+        slow = np.minimum(slow, (most / np.maximum(np.abs(motion.qd), 1e-9)).min(axis=1))
         self._slow = np.minimum(slow, np.r_[slow[1:], slow[-1]])  # from each row to the next
         self.duration = float((motion.period / self._slow[:-1]).sum())
 
@@ -52,7 +54,7 @@ class Planned:
         return np.asarray(rate * along + PULL * (there - q))
 
 
-def planned(law: MaskedLaw, q: Array, goal: Array, left: Degraded) -> Planned | str:
+def planned(law: MaskedLaw, q: Array, goal: Array, left: Degraded, *, most: Array) -> Planned | str:
     """A route to a goal, or a phrase with what is in its way. Planning takes no time: the arm waits.
 
     Args:
@@ -60,6 +62,7 @@ def planned(law: MaskedLaw, q: Array, goal: Array, left: Degraded) -> Planned | 
         q: (n,) where the arm is, rad and m.
         goal: (4, 4) pose of the tool, m, world; or (n,) a configuration.
         left: What is left of the arm.
+        most: (n,) joint rates, rad/s and m/s.
     """
     start = np.clip(q, law.arm.lower, law.arm.upper)
     task = law.whole.task if goal.ndim == 2 else None
@@ -68,4 +71,4 @@ def planned(law: MaskedLaw, q: Array, goal: Array, left: Degraded) -> Planned | 
     if not found.ok or found.timed is None:
         gives = "" if found.given_up is None else f"; it could be met without {', '.join(found.given_up.names)}"
         return f"{found.ending.sentence}{gives}"
-    return Planned(found.timed, waypoints=len(found.q), most=law.whole.speed_limit)
+    return Planned(found.timed, waypoints=len(found.q), fastest=law.whole.speed_limit, most=most)
