@@ -55,7 +55,7 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
         "by a posture": kept.ok and "detour" in did and "plan" not in did,
         "by a route": kept.ok and "plan" in did,
         "stopped": kept.outcome == "stopped",
-        "touched": bool(kept.contacts),
+        "touched": any(contact.exact_time is None or np.isfinite(contact.exact_time) for contact in kept.contacts or ()),
         "why": [action.sentence() for action in kept.actions],
         "contacts": [contact.sentence() for contact in kept.contacts or ()],
     }
@@ -90,7 +90,7 @@ def main() -> None:
         f"is braked. Then there is a ball, {100 * RADIUS:g} cm in radius, from which {100 * MARGIN:g} cm are kept, where the "
         f"tool passed on the rest of its way when there was none, at least {100 * AWAY:g} cm from where it was braked and from "
         "the target, and not in the way of an arm that is stopping. So each task is finished without the ball, and "
-        "**each would touch it if nobody looked out**. Touched: the links' capsules, which hold the links, touch the ball. "
+        "**each would touch it if nobody looked out**. Touched: a link's mesh touches the ball. "
         "Whether there is a way round is not known. Fractions are in per cent, with 95 % intervals.",
         "",
         *table(rows),

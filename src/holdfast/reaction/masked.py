@@ -10,6 +10,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import target_poses
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.sharper import sharpened
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
@@ -62,6 +63,7 @@ class MaskedLaw:
         poses, rows = target_poses(law.task, target)
         self.arm, arm, n = law.arm, law.arm, law.arm.n
         self.whole, self.clearance = law, clearance
+        self._apart = sharpened(clearance) or clearance  # routes are proved by it where the bound finds none
         self.pose = np.eye(4)
         if rows is None:
             self.pose = np.asarray(poses[0])
@@ -100,7 +102,7 @@ class MaskedLaw:
 
     def clear(self, q: Array) -> NDArray[np.bool_]:
         """Whether the arm is as far from everything as it must be, (N,) for configurations (N, n), or a scalar for one."""
-        return np.ones(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.room(q) >= 0
+        return np.ones(q.shape[:-1], dtype=bool) if self._apart is None else self._apart.room(q) >= 0
 
     def ahead(self, q: Array, *, most: Array) -> Array:
         """(N,) s after which the law would be at its target from configurations (N, n); infinite where it ends elsewhere.

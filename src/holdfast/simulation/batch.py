@@ -105,14 +105,7 @@ class Motion:
             done = [work(b) for b in blocks] if workers == 1 or len(blocks) == 1 else list(pool().map(work, blocks))
         ends: dict[str, Any] = {name: np.concatenate([d[name] for d in done]) for name in done[0]} if done[1:] else done[0]
         return Runs(
-            law=self.law,
-            q0=q0,
-            target=target,
-            lock_time=lock_time,
-            cycles=self.cycles,
-            **ends,
-            _motion=self,
-            _setting=setting,
+            law=self.law, q0=q0, target=target, lock_time=lock_time, cycles=self.cycles, **ends, _motion=self, _setting=setting
         )
 
     def _block(self, q0: Array, target: Array, lock_time: Array, setting: Setting, tell: Tell) -> dict[str, NDArray[Any]]:
