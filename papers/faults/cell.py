@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from datetime import datetime
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.diagnosis import Monitor
 from holdfast.faults import FaultEvent
-from papers.faults.chain import CALIBRATION, CENTRING, HERE, ONSET, PLANNED_LIMIT, Trial, entries, made_with, options, percent
+from papers.faults.chain import CENTRING, ONSET, PLANNED_LIMIT, Trial, entries, grouped, options, write
 from papers.faults.second import KINDS
 
 TASKS, DRAWS = 6300, 63  # seeds
@@ -68,10 +67,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of all tasks, by task, and by kind of the fault."""
     groups = {"all": list(rows)} | {name: [r for r in rows if r["task"] == name] for name in ("position", "pose")}
     groups |= {kind: [row for row in rows if row["kind"] == kind] for kind in KINDS}
-    lines = [f"| | tasks | {' | '.join(COLUMNS)} |", "|" + "---|" * (len(COLUMNS) + 2)]
-    for name, some in groups.items():
-        lines.append(f"| {name} | {len(some)} | {' | '.join(percent(some, column) for column in COLUMNS)} |")
-    return lines
+    return grouped(groups, COLUMNS, counted="tasks")
 
 
 def main() -> None:
@@ -79,25 +75,16 @@ def main() -> None:
     chosen = options("cell", __doc__, (10, "tasks with a ball in the way"))
     arm = hf.arms.load(chosen.arm)
     rows = entries(arm, judged, chosen, seed=TASKS)
-    text = [
-        f"# A ball in the way, {arm.title}",
-        "",
-        f"Written by `python -m papers.faults.cell --arm {chosen.arm} --tasks {chosen.tasks} --robots {chosen.robots}` on "
-        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {TASKS} (tasks and robots), {DRAWS} (faults and balls), "
-        f"{CALIBRATION} (calibration). Everything is **simulated**.",
-        "",
+    about = (
         "Robots, tasks and law are those of the chain, other seeds. One joint locks, swings freely or has a frozen sensor, and "
         f"is braked. Then there is a ball, {100 * RADIUS:g} cm in radius, from which {100 * MARGIN:g} cm are kept, where the "
         f"tool passed on the rest of its way when there was none, at least {100 * AWAY:g} cm from where it was braked and from "
         "the target, and not in the way of an arm that is stopping. So each task is finished without the ball, and "
         "**each would touch it if nobody looked out**. Touched: a link's mesh touches the ball. "
-        "Whether there is a way round is not known. Fractions are in per cent, with 95 % intervals.",
-        "",
-        *table(rows),
-        "",
-    ]
-    (HERE / f"CELL-{chosen.arm}.md").write_text("\n".join(text), encoding="utf-8")
-    print("\n" + "\n".join(text))
+        "Whether there is a way round is not known. Fractions are in per cent, with 95 % intervals."
+    )
+    seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults and balls)"
+    write("cell", f"A ball in the way, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))
 
 
 if __name__ == "__main__":

@@ -163,17 +163,21 @@ def percent(rows: Sequence[Mapping[str, Any]], name: str) -> str:
     return f"{100 * hits / len(rows):.1f} ({100 * told.low:.0f} to {100 * told.high:.0f})"
 
 
+def grouped(groups: Mapping[str, Sequence[Mapping[str, Any]]], columns: Sequence[str], *, counted: str) -> list[str]:
+    """A table of these groups of rows: of how many rows of each which column holds."""
+    lines = [f"| | {counted} | {' | '.join(columns)} |", "|" + "---|" * (len(columns) + 2)]
+    for name, some in groups.items():
+        lines.append(f"| {name} | {len(some)} | {' | '.join(percent(some, column) for column in columns)} |")
+    return lines
+
+
 def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of all faults, by task and by kind."""
-    names = ["reachable", *REACTIONS]
-    rows = [{**row, "reachable": row["feasible"] == "yes"} for row in rows]
-    lines = [f"| | faults | {' | '.join(['feasible', *REACTIONS])} |", "|" + "---|" * (len(names) + 2)]
-    groups = {"all": rows, "feasible": [row for row in rows if row["reachable"]]}
+    rows = [{**row, "feasible": row["feasible"] == "yes"} for row in rows]
+    groups = {"all": rows, "feasible": [row for row in rows if row["feasible"]]}
     groups |= {task: [row for row in rows if row["task"] == task] for task in ("position", "pose")}
     groups |= {kind: [row for row in rows if row["kind"] == kind] for kind in MIX}
-    for group, some in groups.items():
-        lines.append(f"| {group} | {len(some)} | {' | '.join(percent(some, name) for name in names)} |")
-    return lines
+    return grouped(groups, ["feasible", *REACTIONS], counted="faults")
 
 
 def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
@@ -239,31 +243,38 @@ def entries(
     return rows
 
 
+def write(program: str, title: str, chosen: argparse.Namespace, *, seeds: str, about: str, lines: Sequence[str]) -> None:
+    """The page of a table of tasks: what made it, what it is about, and its lines."""
+    text = [
+        f"# {title}",
+        "",
+        f"Written by `python -m papers.faults.{program} --arm {chosen.arm} --tasks {chosen.tasks} --robots {chosen.robots}` on "
+        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {seeds}, {CALIBRATION} (calibration). Everything is **simulated**.",
+        "",
+        about,
+        "",
+        *lines,
+        "",
+    ]
+    (HERE / f"{program.upper()}-{chosen.arm}.md").write_text("\n".join(text), encoding="utf-8")
+    print("\n" + "\n".join(text))
+
+
 def main() -> None:
     """Make the table of one arm and write it."""
     chosen = options("chain", __doc__, (20, "tasks that the healthy robot finishes, each with a fault"))
     arm = hf.arms.load(chosen.arm)
     rows = entries(arm, judged, chosen, seed=TASKS)
-    text = [
-        f"# The chain on {arm.title}",
-        "",
-        f"Written by `python -m papers.faults.chain --arm {chosen.arm} --tasks {chosen.tasks} --robots {chosen.robots}` on "
-        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {TASKS} (tasks and robots), {DRAWS} (faults), "
-        f"{CALIBRATION} (calibration). Everything is **simulated**.",
-        "",
-        f"Each task is of a robot of its own (masses and friction up to 20 % off the model), half of them positions, half "
+    about = (
+        "Each task is of a robot of its own (masses and friction up to 20 % off the model), half of them positions, half "
         f"poses, {AWAY[0]:g} to {AWAY[1]:g} m away; the healthy robot reaches it within {LIMIT:g} s. One fault begins after "
         f"{ONSET[0]:g} to {ONSET[1]:g} s. Law: damped inverse, {SPEED:g} m/s, joints drawn to their middle at {CENTRING:g}/s "
         "but in one column, and kept at their limits. Finished: the true tool within 5 mm and 1 deg for 0.2 s, after "
-        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with 95 % intervals.",
-        "",
-        *table(rows),
-        "",
-        *sentences(rows, chosen.robots),
-        "",
-    ]
-    (HERE / f"CHAIN-{chosen.arm}.md").write_text("\n".join(text), encoding="utf-8")
-    print("\n" + "\n".join(text))
+        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with 95 % intervals."
+    )
+    lines = [*table(rows), "", *sentences(rows, chosen.robots)]
+    seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"
+    write("chain", f"The chain on {arm.title}", chosen, seeds=seeds, about=about, lines=lines)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from datetime import datetime
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.diagnosis import Monitor
 from holdfast.faults import FaultEvent, feasible
-from papers.faults.chain import CALIBRATION, CENTRING, HERE, ONSET, PLANNED_LIMIT, Trial, entries, made_with, options, percent
+from papers.faults.chain import CENTRING, ONSET, PLANNED_LIMIT, Trial, entries, grouped, options, write
 
 TASKS, DRAWS = 5200, 52  # seeds
 KINDS = ("locked", "limp", "sensor_freeze")
@@ -67,12 +66,9 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     groups = {"all": told, "feasible": [row for row in told if row["feasible"]]}
     groups |= {task: [row for row in told if row["task"] == task] for task in ("position", "pose")}
     groups |= {f"second: {kind}": [row for row in told if row["kind"] == kind] for kind in KINDS}
-    lines = [f"| | tasks | {' | '.join(COLUMNS)} |", "|" + "---|" * (len(COLUMNS) + 2)]
-    for name, some in groups.items():
-        lines.append(f"| {name} | {len(some)} | {' | '.join(percent(some, column) for column in COLUMNS)} |")
     delay = [1e3 * row["delay"] for row in told if row["delay"] is not None]
     late = f"{np.median(delay):.0f} / {np.quantile(delay, 0.9):.0f} ms (median / 90 %)" if delay else "-"
-    return [*lines, "", f"From the second fault to an alarm: {late}."]
+    return [*grouped(groups, COLUMNS, counted="tasks"), "", f"From the second fault to an alarm: {late}."]
 
 
 def main() -> None:
@@ -80,24 +76,15 @@ def main() -> None:
     chosen = options("second", __doc__, (10, "tasks in which the second fault comes in time"))
     arm = hf.arms.load(chosen.arm)
     rows = entries(arm, judged, chosen, seed=TASKS)
-    text = [
-        f"# A second fault, {arm.title}",
-        "",
-        f"Written by `python -m papers.faults.second --arm {chosen.arm} --tasks {chosen.tasks} --robots {chosen.robots}` on "
-        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {TASKS} (tasks and robots), {DRAWS} (faults), {CALIBRATION} "
-        "(calibration). Everything is **simulated**.",
-        "",
+    about = (
         "Robots, tasks and law are those of the chain, other seeds. Two joints, drawn evenly, fail one after "
         f"the other, each locked, free-swinging or with a frozen sensor: the first after {ONSET[0]:g} to {ONSET[1]:g} s, the "
         f"second {AFTER:g} s after the first was braked; tasks that are over before are left out. Feasible: a motion to the "
         "target exists, from where the arm is when the second fault begins, with both joints locked there. Fractions are in "
-        "per cent, with 95 % intervals.",
-        "",
-        *table(rows),
-        "",
-    ]
-    (HERE / f"SECOND-{chosen.arm}.md").write_text("\n".join(text), encoding="utf-8")
-    print("\n" + "\n".join(text))
+        "per cent, with 95 % intervals."
+    )
+    seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"
+    write("second", f"A second fault, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))
 
 
 if __name__ == "__main__":

@@ -335,9 +335,9 @@ class Controller:
 
     def _way_round(self, time: float, q: Array) -> Array:
         """By way of another posture, else along a route; else the arm stops, or follows the law where no route is asked for."""
-        left = self.degraded
+        left, apart = self.degraded, self.law.clearance
         assert left is not None
-        why = last = "the law would not get there" + (f" clear of {self.law.clearance.others}" if self.law.clearance else "")
+        why = last = "the law would not get there" + ("" if apart is None else f" clear of {apart.others}")
         while self._tries:
             way = self._tries.pop(0)
             found = self._by_posture(q, left) if way == "detour" else self._by_route(time, q, left)
@@ -347,7 +347,7 @@ class Controller:
                 self._act(time, way, f"{why}; {what} takes {found.duration:.3g} s")
                 return np.zeros(self.arm.n)
             last = found
-        if self._plans or self.law.clearance is not None:
+        if self._plans or apart is not None:
             self._stop(time, last)
         return np.zeros(self.arm.n)
 

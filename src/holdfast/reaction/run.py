@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
+from holdfast.clearance.contacts import Contact, first_contacts
 from holdfast.errors import HoldfastError
 from holdfast.failures import Degraded
 from holdfast.faults.events import FaultEvents
@@ -23,14 +24,13 @@ from holdfast.result import Result
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.clearance.clearance import Clearance
-    from holdfast.clearance.contacts import Contact
     from holdfast.control.law import Law
     from holdfast.diagnosis.kinds import Verdict
 
 Array = NDArray[np.float64]
 React = Literal["none", "stop", "chain", "known"]
 Ended = Literal["reached", "stopped", "missed", "unstable"]
-What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "follow", "stop"]
+What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "stop"]
 
 _ENDS = {
     "reached": "the tool reached its target",
@@ -53,7 +53,7 @@ class Action:
     Attributes:
         time: s.
         what: ``alarm``, ``slow``, ``resume``, ``brake`` (and leave the joint out of the law), ``release`` (it is tried again),
-            ``measure`` (where a braked joint is, by the tool), ``plan``, ``follow`` (the plan) or ``stop``.
+            ``measure`` (where a braked joint is, by the tool), ``detour`` (by another posture), ``plan`` (a route) or ``stop``.
         why: A phrase.
         joint: Its name; None where it is not of one joint.
     """
@@ -161,8 +161,6 @@ class FaultRun(Result):
         """What the arm touched, the first time of each pair, in order of time; None if nobody looked."""
         if self.clearance is None:
             return None
-        from holdfast.clearance.contacts import first_contacts
-
         rows = np.unique(np.r_[: len(self.time) : round(self.servos.rate / 100) or 1, len(self.time) - 1])
         return tuple(first_contacts(self.clearance, self.time[rows], self.q[rows]))
 
