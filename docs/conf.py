@@ -104,26 +104,26 @@ moved = {
         "teleoperation": "tutorials/experiment",
         "studio": "how-to/studio",
     }.items()
+} | {
+    f"how-to/{group}": "how-to/index"
+    for group in (
+        "before-a-failure",
+        "a-lock-nobody-noticed",
+        "a-known-failure",
+        "a-free-swinging-joint",
+        "arms",
+        "large-studies",
+        "experiments",
+    )
 }
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},
     "dark_css_variables": {"color-brand-primary": "#6bb8e8", "color-brand-content": "#6bb8e8"},
 }
 
-myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "substitution"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 math_number_all = False
-
-# The picture of the first page is there only once somebody has made it.
-_picture = HERE / "_static" / "assess-pa10.png"
-myst_substitutions = {
-    "picture": (
-        "```{image} _static/assess-pa10.png\n:alt: Probability that the nine-joint PA10 keeps a given relative manipulability "
-        "when any one joint locks\n:width: 100%\n:class: drawn\n```"
-        if _picture.exists()
-        else ""
-    )
-}
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"

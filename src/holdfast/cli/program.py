@@ -22,10 +22,10 @@ from holdfast.errors import ArmError, HoldfastError
 
 PANELS = {  # of the help, in its order, by the folder
     "start": "Start here",
-    "before": "Before a failure",
-    "unnoticed": "A failure nobody has noticed",
-    "known": "A failure you know of",
-    "larger": "Larger work",
+    "before": "Prepare for a failure",
+    "unnoticed": "Undetected failures: simulate and diagnose",
+    "known": "Known failures: recover",
+    "larger": "Studies, experiments, export",
 }
 COMMANDS = {  # the module of each, in the order of the help; what it defines is `command`, or stands after the colon
     "assess": "start.assess",
@@ -84,7 +84,7 @@ def assembled(command: str | None = None) -> typer.Typer:
     app = typer.Typer(
         name="holdfast",
         cls=_InOrder,
-        help="Fault tolerance of redundant robot arms: what happens to the task when a joint fails.\n\n"
+        help="Assess, prepare for, simulate, diagnose and recover from joint failures of redundant arms.\n\n"
         "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
         "Joints are given by name, or by number from 1.",
         no_args_is_help=True,

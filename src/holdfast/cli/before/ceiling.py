@@ -40,7 +40,7 @@ def command(
     seed: SeedOption = 0,
     json_: JsonOption = False,
 ) -> None:
-    """Show what no arm can keep of its manipulability when joints lock, and the best that is known to be attained.
+    """Look up the upper bound on relative manipulability for an arm of a given size.
 
     It holds for every arm of so many joints, revolute or prismatic: only these three numbers count.
 

@@ -19,7 +19,7 @@ FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.
 
 command = typer.Typer(
     name="certificate",
-    help="Check certificates, by code that shares nothing with what made them.",
+    help="Verify or display certificates.",
     no_args_is_help=True,
 )
 
@@ -33,7 +33,7 @@ def check(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Check a certificate: every cell again, in ball arithmetic.
+    """Verify a certificate with the independent checker (ball arithmetic).
 
     The exit code is 1 if a cell is rejected, 2 if the file cannot be checked or is about another arm.
 
@@ -55,7 +55,7 @@ def _share(text: str) -> Fraction:
 
 @command.command()
 def show(file: FileArgument) -> None:
-    """Show what a certificate claims, without checking the proof.
+    """Print the claim of a certificate without verifying it.
 
     Example: holdfast certificate show reach.certificate
     """

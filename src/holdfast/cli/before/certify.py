@@ -34,7 +34,7 @@ from holdfast.present.results import printed
 
 command = typer.Typer(
     name="certify",
-    help="Prove what an arm does for every target, configuration or lock of a box, and write a certificate.",
+    help="Prove a property for every point of a box and write a certificate.",
     no_args_is_help=True,
 )
 
@@ -57,7 +57,7 @@ def reach(
     seed: SeedOption = 0,
     written: Written = Written(Path("reach.certificate")),
 ) -> None:
-    """Prove that every point of a box is reached, healthy or wherever one joint locks in an interval.
+    """Prove that every target in a box is reachable, with or without a locked joint.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
     proved so far; with --store the same command resumes.
@@ -87,7 +87,7 @@ def out_of_reach(
     seed: SeedOption = 0,
     written: Written = Written(Path("out-of-reach.certificate")),
 ) -> None:
-    """Prove that no point of a box is reached, healthy or wherever one joint locks in an interval.
+    """Prove that no target in a box is reachable, with or without a locked joint.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 4 if a configuration is found whose tool is in the box, 1
     if the check rejects something. Ctrl-C writes what is proved so far; with --store the same command resumes.
@@ -120,7 +120,7 @@ def tolerant(
     seed: SeedOption = 0,
     written: _Folder = _Folder(Path("certificates")),
 ) -> None:
-    """Prove that a box is failure-tolerant: reached within working ranges, and after any one joint locks in its own.
+    """Prove that every target in a box stays reachable after any single lock.
 
     The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
     proved so far; with --store the same command resumes.
@@ -152,7 +152,7 @@ def ceiling(
     seed: SeedOption = 0,
     written: Written = Written(Path("ceiling.certificate")),
 ) -> None:
-    """Prove that relative manipulability is nowhere in a box of configurations above a threshold.
+    """Prove an upper bound on relative manipulability over a box of configurations.
 
     The best configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something is
     undecided, 4 if that configuration is above the threshold, 1 if the check rejects something. Ctrl-C writes what is proved
@@ -181,7 +181,7 @@ def floor(
     seed: SeedOption = 0,
     written: Written = Written(Path("floor.certificate")),
 ) -> None:
-    """Prove that relative manipulability is nowhere in a box of configurations below a threshold, and that none is singular.
+    """Prove a lower bound on relative manipulability over a box of configurations.
 
     The worst configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something
     is undecided, 4 if that configuration is below the threshold, 1 if the check rejects something. Ctrl-C writes what is
@@ -208,7 +208,7 @@ def structural_zero(
     out: CertificateOption = Path("structural-zero.certificate"),
     json_: JsonOption = False,
 ) -> None:
-    """Prove that a lock of a joint between a spherical shoulder and a spherical wrist costs everything, wherever the arm is.
+    """Prove that locking one joint removes all relative manipulability in every configuration.
 
     Proved exactly, of an arm whose geometry is that of the file but for rounded digits, and by how much it differs is
     printed. The exit code is 0 if it is proved, 3 if axes do not meet.

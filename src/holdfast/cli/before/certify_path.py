@@ -30,7 +30,7 @@ def path(
     chain: Chain = Chain(),
     written: Written = Written(Path("path.certificate")),
 ) -> None:
-    """Prove that whatever joint locks, and whenever, one continuous motion finishes the path of the tool.
+    """Prove that a tool path can be completed after any single lock at any time.
 
     The motion is a table of the healthy arm's configurations, such as follow writes; between them joints move along straight
     lines. The exit code is 0 if all is proved, 3 if something is undecided, 4 if something is refuted, 1 if the check rejects

@@ -49,7 +49,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Which arm to build: search link lengths, twists, offsets, limits or the tool for the most dexterity left after a failure.
+    """Optimise link lengths, twists, limits or the tool of an arm for fault tolerance.
 
     A design is judged by what it guarantees: the index that, say, 95 % of the poses of the region have at least when the worst
     joint locks. The report shows what that costs in reach, and holds the best arm as a file for 'holdfast assess'.

@@ -47,7 +47,7 @@ def command(
     csv: MotionCsvOption = None,
     output: Output = Output(),
 ) -> None:
-    """Find the motion along a path that survives most: the path can be finished whichever joint locks, whenever it does.
+    """Plan the motion along a path that tolerates the most single-joint locks.
 
     Example: holdfast endure panda line.yaml --out endured
     """

@@ -56,7 +56,7 @@ def command(
     parquet: Annotated[Path | None, "The same as Parquet (needs holdfast[parquet])."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Follow a path with the end effector while the self-motion prepares the arm for a joint failure.
+    """Track a tool path while the null-space motion optimises fault tolerance.
 
     Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
     """

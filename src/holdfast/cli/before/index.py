@@ -20,7 +20,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Evaluate a fault tolerance index at a configuration: per failed joint, the worst one, and the gradient.
+    """Compute a fault-tolerance index and its gradient at one configuration.
 
     Example: holdfast index pa10-9dof --index relative-manipulability --q "0 30 0 90 0 18 0 36 0" --degrees
     """

@@ -39,7 +39,7 @@ def command(
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Judge arms as wholes, over a region, their joint space and their workspace, in one table with intervals.
+    """Compare arms by global fault-tolerance measures, with confidence intervals.
 
     An index at one configuration says little about the rest of an arm.
 

@@ -55,7 +55,7 @@ def command(
     csv: Annotated[Path | None, "Write the configurations to this file."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """The best configuration of a pose before a joint fails: the end effector does not move. With --anywhere, of all poses.
+    """Find the most fault-tolerant configuration of a tool pose, or of all poses (--anywhere).
 
     Example: holdfast optimise panda --at "0 -45 0 -135 0 90 45" --degrees --minimise torque:effort
     """

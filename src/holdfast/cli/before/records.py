@@ -16,7 +16,7 @@ from holdfast.present.results import printed, printed_each
 
 command = typer.Typer(
     name="records",
-    help="The best arms and null spaces that anybody has found, to be checked by anyone.",
+    help="Browse, check and submit the best known arms and null spaces.",
     no_args_is_help=True,
 )
 
@@ -28,7 +28,7 @@ def list_(
     out: Annotated[Path | None, "Folder for a page with pictures, and each record as YAML and URDF."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """List all records, with what no arm can beat.
+    """List the best known arms with their upper bounds.
 
     Example: holdfast records list
     """
@@ -41,7 +41,7 @@ def show(
     record: NameArgument,
     urdf: Annotated[bool, "Its arm as URDF, for simulators, instead."] = False,
 ) -> None:
-    """Show a record as the file that it is; a submission is such a file.
+    """Print one record as YAML or URDF.
 
     Example: holdfast records show pose-9R-k2-001
     """
@@ -59,7 +59,7 @@ def new(
     by: Annotated[str, "Who found it."] = "anonymous",
     how: Annotated[str, "How, so that others can follow. Default: not said."] = "",
 ) -> None:
-    """Print an arm as a record: a file to check, to keep and to submit.
+    """Create a record file for an arm.
 
     Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
     """
@@ -74,7 +74,7 @@ def check(
     all_: Annotated[bool, "All records of the book."] = False,
     json_: JsonOption = False,
 ) -> None:
-    """Measure a record again, by code that shares nothing with what found it.
+    """Recompute the value of a record with independent code.
 
     The exit code is 3 if a claim does not hold. A file is also held against the current record of its class.
 

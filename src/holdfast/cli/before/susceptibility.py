@@ -25,7 +25,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Evaluate how much a free-swinging failure of each joint would do at a configuration; smaller is better.
+    """Compute how strongly each joint would react to losing its torque.
 
     Example: holdfast susceptibility panda --measure swing-angle --q "0 -45 0 -135 0 90 45" --degrees --mount wall
     """

@@ -26,7 +26,7 @@ def command(
     out: Annotated[Path | None, "Folder for the arms, as YAML."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Make revolute arms that have a Jacobian, or a null space, at the configuration of zeros.
+    """Construct revolute arms with a given Jacobian or null space at q = 0.
 
     A Jacobian has 2, 3 or 6 rows, m and rad, linear above angular. Its null space alone says what locks leave.
 

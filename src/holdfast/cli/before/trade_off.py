@@ -23,7 +23,7 @@ def command(
     chain: Chain = Chain(),
     output: Output = Output(),
 ) -> None:
-    """What a velocity error of the healthy arm gains after an unnoticed lock: which pre-failure error to choose.
+    """Compare accuracy before a failure with the error after an undetected lock.
 
     Example: holdfast trade-off panda --task position --samples 2000 --plot trade-off.png
     """

@@ -27,7 +27,7 @@ def command(
     csv: MotionCsvOption = None,
     output: Output = Output(),
 ) -> None:
-    """Simulate one joint swinging free under gravity, all others held (needs the extra 'physics').
+    """Simulate a joint that swings freely under gravity (needs the extra 'physics').
 
     Brakes are assumed to stop the joint at once.
 

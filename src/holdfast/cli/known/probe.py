@@ -29,7 +29,7 @@ def command(
     csv: Annotated[Path | None, "Write the motion to this file."] = None,
     output: Output = Output(),
 ) -> None:
-    """Plan a self-motion that tells which joint is locked, from the tool's pose alone; or decide from a record of it.
+    """Plan a self-motion that identifies a locked joint, or evaluate its log.
 
     What it can tell apart and what not is printed before anything moves. With --record: exit code 0 if none of the suspects is
     locked, 3 otherwise.

@@ -72,7 +72,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """A joint has locked or moves less: report what is left of the workspace, whether the task can be finished, and how.
+    """Plan a motion that finishes the task after a known failure, or prove that none exists.
 
     Exit code 0 only if everything that was asked for is met; 3 if a row, a lock, a limit or the goal had to be dropped.
 

@@ -37,7 +37,7 @@ def command(
     csv: Annotated[Path | None, "Write all points to this file."] = None,
     output: Output = Output(),
 ) -> None:
-    """Find all configurations for one target, and the values at which each joint may lock without losing it.
+    """Trace all configurations of a tool pose and the joint values at which a lock is harmless.
 
     With one degree of redundancy they are curves, closed or ended by a joint limit; with more they are sampled. A lock keeps
     the target within reach if and only if it lies in the range of its joint.

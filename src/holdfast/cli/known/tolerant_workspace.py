@@ -30,7 +30,7 @@ def command(
     chain: Chain = Chain(),
     output: Output = Output(),
 ) -> None:
-    """Find every point that the arm reaches before and after any single joint locks, under artificial joint limits.
+    """Compute the points that stay reachable after any single lock.
 
     Example: holdfast tolerant-workspace planar-3r --optimise --plot region.png
     """

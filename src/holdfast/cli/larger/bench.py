@@ -13,12 +13,12 @@ from holdfast.cli.larger.study import chunks_progress, stopping
 from holdfast.cli.options import ArmArgument, JsonOption
 from holdfast.present.results import printed, said
 
-command = typer.Typer(name="bench", help="Suites of cases, for comparing planners.", no_args_is_help=True)
+command = typer.Typer(name="bench", help="Run benchmarks for motion planners.", no_args_is_help=True)
 
 
 @command.callback()
 def _root() -> None:
-    """Suites of cases, for comparing planners."""
+    """Run benchmarks for motion planners."""
 
 
 @command.command("fail-active")
@@ -40,7 +40,7 @@ def fail_active(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Draw failures and tasks, and count what each planner finishes: reach, line, drawer, wipe, tray, upright.
+    """Benchmark planners on random failures and tasks.
 
     Ctrl-C stops after the current cases; the same command resumes.
 

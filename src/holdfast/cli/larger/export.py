@@ -27,7 +27,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Write a control law as code for a robot's own controller.
+    """Export a control law, monitor or controller as C or C++ code.
 
     Example: holdfast export panda --law failure-tolerant --language c --out controller
     """

@@ -20,7 +20,7 @@ from holdfast.present.results import printed, printed_each
 
 command = typer.Typer(
     name="study",
-    help="Sweeps of arms, indices, regions and laws that survive crashes and spread over machines.",
+    help="Run parameter sweeps that can be stopped, resumed and distributed.",
     no_args_is_help=True,
 )
 
@@ -40,7 +40,7 @@ def new(
     optimise: Annotated[bool, "Also the best configuration of each pose."] = False,
     chains: Chains = Chains(),
 ) -> None:
-    """Write a study file with comments, to edit and run.
+    """Write a commented study file.
 
     Example: holdfast study new tools.yaml --arm panda --arm iiwa14 --poses 2000 --chunk 500 --seed 1
     """
@@ -70,7 +70,9 @@ def run(
     dry_run: Annotated[bool, "Say what would be computed, how long it takes and how large it is."] = False,
     json_: JsonOption = False,
 ) -> None:
-    """Compute what is missing of a study. Ctrl-C stops after the current chunks; the same command resumes.
+    """Compute the missing parts of a study.
+
+    Ctrl-C stops the run after the current chunks; the same command resumes it.
 
     Example: holdfast study run tools.yaml --out tools
 
@@ -114,7 +116,7 @@ def run(
 
 @command.command()
 def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
-    """Show how far a study is, also while it runs.
+    """Show the progress of a study.
 
     Example: holdfast study status tools
     """
@@ -125,7 +127,9 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
 
 @command.command()
 def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
-    """Read every chunk and compare its checksum. Damaged chunks are named, and computed again by the next run.
+    """Check the checksums of all chunks.
+
+    Damaged chunks are named, and the next run computes them again.
 
     Example: holdfast study verify tools
     """
@@ -143,7 +147,7 @@ def merge(
     out: Annotated[Path | None, "Folder to merge into.", "the first DIR"] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Join folders of one study from machines that shared no folder.
+    """Merge folders computed on different machines.
 
     The first folder gets what it lacks from the others; it is made if it does not exist.
 
@@ -165,7 +169,9 @@ def report(
     to: Annotated[Path | None, "HTML file. Default: DIR/report.html."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """One HTML page: a table of arms, indices and laws with intervals, distributions side by side, and how it was computed.
+    """Write the HTML report.
+
+    The page has a table of arms, indices and laws with intervals, distributions next to each other, and how they were computed.
 
     Example: holdfast study report tools
     """

@@ -24,7 +24,7 @@ ProtocolArgument = Annotated[
 
 command = typer.Typer(
     no_args_is_help=True,
-    help="Experiments with a person at the stick: tasks, protocol, sessions and statistics.",
+    help="Run teleoperation experiments: tasks, sessions, records and statistics.",
     add_completion=False,
 )
 
@@ -37,7 +37,7 @@ def run(
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
     protocol: Annotated[str, "goel2003, goel2003-smooth, or a file (YAML)."] = "goel2003",
 ) -> None:
-    """Run and record a whole experiment with simulated people, from training to the last rating.
+    """Run an experiment with simulated operators.
 
     Example: holdfast teleop run --simulated --operators 24 --seed 1 --out experiment
     """
@@ -67,7 +67,7 @@ def analyse(
     ] = "refuse",
     difficulty: Annotated[str, "Whose CPM the tasks are sorted by: operators (their median) or computer."] = "operators",
 ) -> None:
-    """Statistics of an experiment: writes DIR/report.html, and every table as CSV beside it.
+    """Compute the statistics and write a report.
 
     Example: holdfast teleop analyse experiment
     """
@@ -86,7 +86,7 @@ def analyse(
 
 @command.command()
 def replay(folder: FolderArgument) -> None:
-    """Drive the arm with the recorded commands again and check that every trial gives the same path.
+    """Replay recorded commands and compare the paths.
 
     Exit code 0 if so; 3 if not.
 
@@ -104,7 +104,7 @@ def replay(folder: FolderArgument) -> None:
 
 @command.command()
 def verify(folder: FolderArgument) -> None:
-    """Check that every trial, rating, answer and event is as it was written, by their digests.
+    """Check all records against their digests.
 
     Exit code 0 if so; 3 if not, and the first damaged trial is named first.
 
@@ -125,7 +125,9 @@ def backup(
     folder: FolderArgument,
     out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")],
 ) -> None:
-    """Copy the folder of an experiment, also while it is served, and verify the copy.
+    """Copy an experiment and verify the copy.
+
+    The experiment may be served at the same time.
 
     Example: holdfast teleop backup experiment experiment-2026-11-22
     """
@@ -142,7 +144,7 @@ def export(
     out: Annotated[Path | None, "Folder for the tables.", "DIR/export"] = None,
     parquet: Annotated[bool, "Parquet in place of CSV; needs pyarrow."] = False,
 ) -> None:
-    """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol.
+    """Export all tables with a data dictionary.
 
     Example: holdfast teleop export experiment
     """
@@ -163,7 +165,7 @@ def allocation(
     ] = None,
     out: Annotated[Path | None, "Write a sheet to print (HTML)."] = None,
 ) -> None:
-    """Print who does which task when and in which order of scenarios, as sheets to tick.
+    """Print the task order of each subject.
 
     Example: holdfast teleop allocation --out allocation.html
     """
@@ -184,7 +186,7 @@ def subjects(
     drop: Annotated[str | None, "This subject will not come back: the row is given to someone else."] = None,
     delete: Annotated[str | None, "Delete this subject and everything recorded, for good."] = None,
 ) -> None:
-    """List the subjects of an experiment and how far their sessions are.
+    """List, drop or delete subjects.
 
     Example: holdfast teleop subjects experiment
     """
@@ -212,7 +214,7 @@ def protocol_(
     protocol: ProtocolArgument = "goel2003",
     write: Annotated[Path | None, "Copy it to this file, to start from."] = None,
 ) -> None:
-    """Check a protocol and summarise it.
+    """Check and summarise a protocol.
 
     Example: holdfast teleop protocol --write mine.yaml
     """

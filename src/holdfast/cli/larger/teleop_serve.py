@@ -33,7 +33,9 @@ def serve(
     texts: Annotated[Path | None, "Translation of the page's texts (YAML)."] = None,
     tlx: Annotated[bool, "Ask for the NASA task load index."] = False,
 ) -> None:
-    """Run an experiment with people: serve the pages of the stations and of the experimenter. Ctrl-C ends it.
+    """Serve the web pages of an experiment.
+
+    Ctrl-C ends the server.
 
     Example: holdfast teleop serve --data experiment
     """
@@ -86,7 +88,9 @@ def _token(given: str | None, file: Path | None) -> str | None:
 def texts(
     write: Annotated[Path | None, "Copy them to this file, to translate."] = None,
 ) -> None:
-    """Print or copy the texts of the page, to translate; 'holdfast teleop serve --texts FILE' uses the translation.
+    """Print or copy the page texts for translation.
+
+    'holdfast teleop serve --texts FILE' uses the translation.
 
     Example: holdfast teleop texts --write de.yaml
     """

@@ -38,7 +38,7 @@ def tasks(
     out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Draw random tasks, let the computer run each in four scenarios, and select those for an experiment.
+    """Generate and select tasks.
 
     Example: holdfast teleop tasks --seed 1 --out bank
     """

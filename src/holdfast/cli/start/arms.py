@@ -34,7 +34,7 @@ def describe(
     lock: Annotated[list[str] | None, "With --view: a joint that is locked. May be given again."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Show an arm, problems in its data, and which joints are single points of failure by structure.
+    """Print the joints, data problems and single points of failure of an arm.
 
     Example: holdfast describe panda --view panda.html --lock 4
     """

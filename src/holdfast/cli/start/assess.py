@@ -54,7 +54,7 @@ def command(
     chains: Chains = Chains(),
     json_: JsonOption = False,
 ) -> None:
-    """With what probability does an arm keep its dexterity over a region of the workspace when any one joint locks?
+    """Estimate how likely an arm keeps its dexterity when any one joint locks.
 
     Several arms, tools or tasks are compared over one region in one report, in every combination. (Control laws of one arm:
     'holdfast compare-laws'.)
@@ -138,7 +138,7 @@ def report(
     failure_rate: FailureRateOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Write the report of a results folder again; the folder may hold a stopped run or a comparison.
+    """Rebuild the report of a results folder.
 
     Example: holdfast report results
     """

@@ -14,7 +14,7 @@ from holdfast.present.results import drawn, printed
 
 command = typer.Typer(
     name="cell",
-    help="The objects around an arm: what they touch, and how sharply they are seen.",
+    help="Inspect the environment around an arm.",
     no_args_is_help=True,
 )
 
@@ -27,7 +27,7 @@ def check(
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Check a cell: what cannot be read, what touches the base or always, how sharp its grids are.
+    """Check an environment file: unreadable shapes, permanent contacts, grid resolution.
 
     The exit code is 3 if something touches the base or in every configuration.
 

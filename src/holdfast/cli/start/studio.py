@@ -49,7 +49,7 @@ def command(
     ] = None,
     chain: Chain = Chain(),
 ) -> None:
-    """Move an arm in the browser, let joints fail, and see what the failure costs (needs the extra 'view').
+    """Drag an arm and lock its joints in an interactive 3-D view (needs the extra 'view').
 
     Every browser window has its own arm. Ctrl-C stops the server.
 

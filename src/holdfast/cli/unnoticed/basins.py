@@ -25,7 +25,7 @@ def command(
     chain: Chain = Chain(),
     output: Output = Output(),
 ) -> None:
-    """Find the starts from which an arm with locked joints still reaches its target, and where it ends from the others.
+    """Find which start configurations converge to the target after a lock.
 
     Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """

@@ -25,7 +25,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Find the control law with which an arm reaches its targets most often after an unnoticed lock of any joint.
+    """Rank control laws by how often they reach their target after an undetected lock.
 
     All laws are tried on the same failures, those of 'holdfast convergence-map'.
 

@@ -27,7 +27,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Calibrate the bounds of a monitor from records of a healthy arm, and tell how often it may alarm falsely.
+    """Set the detection thresholds of the monitor from logs of a healthy arm.
 
     Example: holdfast calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json
     """

@@ -51,7 +51,7 @@ def command(
     out: Annotated[Path | None, "Folder for report.html and tables (CSV)."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Compare control laws of one arm on the same motions with a joint locked and a controller that does not know it.
+    """Compare control laws on the same motions, healthy and with an undetected lock.
 
     The others are compared with the first law. 'holdfast assess A B C' compares arms, tools and tasks instead: how much
     dexterity a failure leaves.

@@ -25,7 +25,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Map how motions end with each joint locked in turn from the start, and with none.
+    """Map how motions end with each joint locked from the start.
 
     Example: holdfast convergence-map panda --task position --target 0.5,0.2,0.4 --starts 1000 --out results
 

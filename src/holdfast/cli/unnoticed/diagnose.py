@@ -25,7 +25,7 @@ def command(
     chain: Chain = Chain(),
     output: Output = Output(),
 ) -> None:
-    """Look for a joint fault in a record of an arm: when it alarms, which joint, which kind, and what could not be told.
+    """Detect and identify a joint fault in a log.
 
     Exit code 0 if nothing was found, 3 if there is an alarm.
 

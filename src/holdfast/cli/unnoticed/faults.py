@@ -12,7 +12,7 @@ from holdfast.cli.groups import Chain
 from holdfast.cli.options import JsonOption
 from holdfast.present.results import printed
 
-command = typer.Typer(name="faults", help="Timed joint faults for simulators.", no_args_is_help=True)
+command = typer.Typer(name="faults", help="Generate timed joint faults for simulators.", no_args_is_help=True)
 
 
 @command.callback()
@@ -30,7 +30,7 @@ def draw(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Draw what happens in some episodes: the same events from the same seed on every machine.
+    """Draw the fault events of some episodes.
 
     Example: holdfast faults draw faults.yaml --arm panda --episodes 5 --seed 7
     """

@@ -19,7 +19,7 @@ def command(
     chain: Chain = Chain(),
     output: Output = Output(),
 ) -> None:
-    """Say before it is made what a motion will show of locked joints: which are seen, how soon, and which look alike.
+    """Predict which locks a motion would reveal, and how soon.
 
     Example: holdfast observe healthy/000000.npz --arm panda --bounds bounds.json
     """

@@ -24,7 +24,7 @@ def command(
     seed: SeedOption = 0,
     chain: Chain = Chain(),
 ) -> None:
-    """Simulate records of an arm with servos and noise, healthy or with faults, to try calibrate and diagnose on.
+    """Simulate sensor logs of an arm, with or without faults.
 
     Masses and friction of a robot are off by up to 20 % of the arm's model (needs the extra 'physics').
 

@@ -52,7 +52,7 @@ def command(
     out: Annotated[Path | None, "Folder for report.html with the arm moving, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate an arm whose controller does not know that joints have locked: does it still reach the target?
+    """Simulate the closed loop with locked joints that the controller does not know of.
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """

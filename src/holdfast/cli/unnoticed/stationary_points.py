@@ -29,7 +29,7 @@ def command(
     chain: Chain = Chain(),
     output: Output = Output(),
 ) -> None:
-    """Find the stationary points at which an arm with locked joints can stop when its controller does not know.
+    """Find the configurations at which an arm with an undetected lock can stop.
 
     Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=140 --degrees
     """

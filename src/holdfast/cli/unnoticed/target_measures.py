@@ -22,7 +22,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Measure which targets an unnoticed lock puts at risk, averaged over starts.
+    """Measure how much an undetected lock endangers each target, averaged over starts.
 
     The measures of 'holdfast workspace' for many targets, each over the same starts.
 

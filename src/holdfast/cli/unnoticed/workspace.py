@@ -23,7 +23,7 @@ def command(
     chain: Chain = Chain(),
     json_: JsonOption = False,
 ) -> None:
-    """Map the starts from which an arm still reaches a target when a joint locks on the way and nobody notices.
+    """Map the start positions from which a target is still reached after an undetected lock.
 
     The measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by sampling,
     with 95 % intervals. A stopped analysis resumes if --out is the same. Over targets: 'holdfast target-measures'.
