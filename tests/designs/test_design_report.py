@@ -62,7 +62,7 @@ def test_its_figures_are_given(found):
     assert list(found.figures()) == ["front", "arms"]
     assert list(replace(found, best=0).figures()) == ["front"]
     check_card(found)
-    assert "guaranteed relative manipulability" in found._repr_html_()
+    assert "relative manipulability, 95 % of poses" in found._repr_html_()
 
 
 def test_the_page_says_what_to_build(found):
@@ -75,7 +75,7 @@ def test_the_page_says_what_to_build(found):
         "a1 (1.5 m), upper2 (90 deg) of the best design are at their bounds",
         "upper limit of joint 2",
         "at the lower bound",
-        "What is guaranteed against how far the arm reaches",
+        "Index quantile against reach",
         "Its own report over the same region",
         "name: planar-3r-design",
     ):
@@ -100,11 +100,11 @@ def test_the_command_is_the_search(found):
 
 def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
-    assert same.headline.startswith("Nothing that guarantees more than the given arm was found: for 95 % of the poses")
+    assert same.headline.startswith("No design was found that keeps more than the given arm: at 95 % of the poses")
     assert "Before and after" not in [s.title for _, s in report.build(same).parts]
     none = Checked(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
     lost = replace(found, checked=Check(none, none, 0.0))
-    assert "guarantees any relative manipulability" in lost.headline
+    assert "keeps any relative manipulability" in lost.headline
     page = render(report.build(lost)).replace("\u00a0", " ")
     check(page)
     assert "Neither arm reaches a pose of the region" in page
@@ -115,7 +115,7 @@ def test_a_design_that_guarantees_as_much_and_reaches_farther_is_not_nothing(fou
         found, guaranteed=np.array([0.4, 0.25, 0.1, 0.4]), checked=Check(checked(rng, 0.38), checked(rng, 0.38), 0.0)
     )
     line = alike.headline
-    assert line.startswith("No design guarantees more than the given arm, but the best one guarantees as much, 0.38")
+    assert line.startswith("No design keeps more than the given arm, but the best one keeps as much, 0.38")
     assert line.endswith("reaches 3.500 m instead of 3.000 m.")
 
 

@@ -24,11 +24,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Checked:
-    """What an arm guarantees on fresh poses.
+    """The index of an arm on fresh poses: an estimate from a sample, not a proof.
 
     Attributes:
         distribution: Of the index at the best configuration of every pose; one that is not reached counts as 0.
-        guaranteed: The quantile, with its 95 % confidence interval.
+        guaranteed: Lower quantile of the index over the poses, with its 95 % confidence interval.
     """
 
     distribution: Distribution
@@ -152,27 +152,27 @@ class Designs(Result):
         name, share = self.index.name, chosen(self.level)
         if not best.guaranteed.value > 0 and not given.guaranteed.value > 0:
             return (
-                f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses "
+                f"No design within these bounds keeps any {name} at {share} of the poses of the region: too many poses "
                 "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or "
                 "level."
             )
         more = farther(self.guaranteed, self.reach, self.best)
         if self.best_is_start:
             text = (
-                f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} "
+                f"No design was found that keeps more than the given arm: at {share} of the poses of the region its {name} "
                 f"is at least {gives}, {self._failures()}."
             )
             return f"{text} {more}".rstrip()
         if self.guaranteed[self.best] <= (1 + SAME) * self.start_guaranteed:
             return (
-                f"No design guarantees more than the given arm, but the best one guarantees as much, {keeps} "
-                f"for {share} of the poses (the given arm {gives}), and reaches {self.reach[self.best]:.3f} m "
+                f"No design keeps more than the given arm, but the best one keeps as much, {keeps} "
+                f"at {share} of the poses (the given arm {gives}), and reaches {self.reach[self.best]:.3f} m "
                 f"instead of {self.start_reach:.3f} m. {more}"
             ).rstrip()
         if best.guaranteed.value <= given.guaranteed.value:
             return (
                 f"No gain that lasts was found: on the {counted(self.poses, 'pose')} of the search the best design "
-                f"guarantees a {name} of {number(float(self.guaranteed[self.best]))}, but on fresh ones {keeps}, and the given "
+                f"keeps a {name} of {number(float(self.guaranteed[self.best]))}, but on fresh ones {keeps}, and the given "
                 f"arm {gives}. Search with more poses."
             )
         reaches = f"The reach goes from {self.start_reach:.3f} m to {self.reach[self.best]:.3f} m."
@@ -192,7 +192,7 @@ class Designs(Result):
         ends = f"{self.reach[self.front[0]]:.4g} to {self.reach[self.front[-1]]:.4g} m"
         return [
             self.headline,
-            f"{len(self.values):,} designs tried; {len(self.front)} of them are on the front of reach and guaranteed "
+            f"{len(self.values):,} designs tried; {len(self.front)} of them are on the Pareto front of reach and "
             f"{self.index.name}, reach {ends}",
         ]
 

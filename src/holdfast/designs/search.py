@@ -60,7 +60,7 @@ def design(
     store: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Designs:
-    """Search for the arm that guarantees most over a region after the worst failure.
+    """Search for the arm with the largest index quantile over a region after the worst failure.
 
     What a design is worth is the ``1 - level`` quantile, over the poses of the region, of the index at the best configuration
     of every pose (:func:`holdfast.optimise`); a pose that is not reached counts as 0. Designs spread over the bounds are

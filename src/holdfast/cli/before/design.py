@@ -38,7 +38,7 @@ def command(
     task: Annotated[str | None, TASK_HELP] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    level: Annotated[float, "Fraction of the poses for which the index is to be guaranteed."] = 0.95,
+    level: Annotated[float, "Fraction of the poses that must keep the index; 0.95 maximises the 5 % quantile."] = 0.95,
     poses: Annotated[int, "Poses on which designs are compared."] = 256,
     designs: Annotated[int, "How many designs, spread over the bounds, are tried first."] = 512,
     climbs: Annotated[int, "Climbs with exact gradients, from the best of them."] = 8,
@@ -51,8 +51,9 @@ def command(
 ) -> None:
     """Optimise link lengths, twists, limits or the tool of an arm for fault tolerance.
 
-    A design is judged by what it guarantees: the index that, say, 95 % of the poses of the region have at least when the worst
-    joint locks. The report shows what that costs in reach, and holds the best arm as a file for 'holdfast assess'.
+    The search maximises a lower quantile: the index that, for example, 95 % of the poses of the region keep after the worst
+    single lock, estimated from a sample. The report shows the change of reach and contains the best arm as a file for
+    'holdfast assess'.
 
     Example: holdfast design pa10-9dof --vary a8=-0.2..0.2 --vary alpha8=45..135deg --vary tool.z=0..0.3 --out tool
     """

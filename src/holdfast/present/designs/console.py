@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from holdfast.designs.convergence import ConvergenceDesigns
-from holdfast.designs.designs import Checked, Designs, interval_text
+from holdfast.designs.designs import Checked, Designs, chosen, interval_text
 from holdfast.designs.space import Parameter
 from holdfast.present.printing import Rows
 from holdfast.probability.intervals import Difference, Interval
@@ -93,7 +93,10 @@ def key_table(d: Designs | ConvergenceDesigns) -> Rows:
     rows = [[p.name, p.text(before), p.text(after)] for p, before, after in pairs]
     if isinstance(d, Designs):
         given, best = (interval_text(x.guaranteed) for x in (d.checked.given, d.checked.best))
-        rows += [[f"guaranteed {d.index.name}", given, best], ["reach, m", f"{d.start_reach:.3f}", f"{d.reach[d.best]:.3f}"]]
+        rows += [
+            [f"{d.index.name}, {chosen(d.level)} of poses", given, best],
+            ["reach, m", f"{d.start_reach:.3f}", f"{d.reach[d.best]:.3f}"],
+        ]
     else:
         rows += [[name, percent(float(m[0])), percent(float(m[d.best]))] for name, m in d.measures.items()]
     return Rows(["", "given arm", "best design"], rows)

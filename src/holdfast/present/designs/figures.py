@@ -1,4 +1,4 @@
-"""What a search of designs looks like: the front of guaranteed tolerance and reach, and the arm before and after."""
+"""Figures of a design search: the Pareto front of index quantile and reach, and the arm before and after."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ def front_figure(
     label: str,
     bound: float | None,
 ) -> Figure:
-    """Every design by its reach and what it guarantees, with those that no other one beats in both.
+    """Every design by its reach and its index quantile, with those that no other one beats in both.
 
     Args:
         reach: (D,) m.
-        value: (D,) guaranteed values.
+        value: (D,) lower quantiles of the index.
         front: Numbers of the designs of the front, by reach.
         best: Number of the design of the greatest value.
         start: Reach and value of the given arm, if known.
@@ -120,13 +120,13 @@ def _posture(arm: Arm, task: Task, region: Region, seed: int) -> Array:
 def parameters_figure(
     names: Sequence[str], values: Array, value: Array, start: tuple[Array, float] | None, label: str
 ) -> Figure:
-    """What is guaranteed against each parameter by itself, a panel each.
+    """Index quantile against each parameter, one panel for each parameter.
 
     Args:
         names: Of the parameters, with their units.
         values: (D, k) as people read them.
-        value: (D,) guaranteed values.
-        start: The given arm's values (k,), and what it guarantees, if known.
+        value: (D,) lower quantiles of the index.
+        start: The given arm's values (k,), and its index quantile, if known.
         label: Of the value.
     """
     columns = 2 if len(names) == 4 else min(3, len(names))

@@ -81,7 +81,7 @@ def _table(d: Designs) -> str:
 
 
 def figures(d: Designs) -> dict[str, Figure]:
-    """All designs by reach and what they guarantee; the given arm and the best design, unless that is the same."""
+    """All designs by reach and quantile of the index; the given arm and the best design, unless that is the same."""
     start = (d.start_reach, d.start_guaranteed)
     drawn = {"front": front_figure(d.reach, d.guaranteed, d.front.tolist(), d.best, start, _label(d), d.index.bound)}
     if not d.best_is_start:
@@ -96,7 +96,7 @@ def build(designs: Designs) -> Page:
         Section("", _remarks(d)),
         Section("What to build", [parameters_table(d.space, d.values[d.best])]),
         Section("Before and after", [] if d.best_is_start else _arms(drawn["arms"])),
-        Section("What is guaranteed against how far the arm reaches", _front(d, drawn["front"])),
+        Section("Index quantile against reach", _front(d, drawn["front"])),
         Section("How the index is distributed, before and after", _distributions(d)),
         Section("The best arm as a file", _file(d)),
     ]
@@ -112,9 +112,9 @@ def build(designs: Designs) -> Page:
 
 
 def _facts(d: Designs) -> list[tuple[Cell, Cell]]:
-    """What is guaranteed before and after, on fresh poses, and the reach that it costs."""
+    """Index quantile before and after, on fresh poses, and the change of reach."""
     given, best = d.checked.given, d.checked.best
-    often = f"guaranteed for {chosen(d.level)} of fresh poses"
+    often = f"least index at {chosen(d.level)} of fresh poses"
     found: list[tuple[Cell, Cell]] = []
     if best.guaranteed.value:
         found.append((number(best.guaranteed.value), f"{often}, {'the given arm' if d.best_is_start else 'the best design'}"))
@@ -200,7 +200,7 @@ def _arms(figure: Figure) -> list[Block]:
 
 
 def _label(d: Designs) -> str:
-    return drawing.plain(f"guaranteed {d.index.name} ({chosen(d.level)} of the poses)")
+    return drawing.plain(f"{d.index.name}, least at {chosen(d.level)} of the poses")
 
 
 def _front(d: Designs, figure: Figure) -> list[Block]:
@@ -217,7 +217,7 @@ def _front(d: Designs, figure: Figure) -> list[Block]:
         cells.append(percent(float(d.reached[k])))
         cells += [_value(x * p.shown[0]) for p, x in zip(d.space.parameters, d.values[k].tolist(), strict=True)]
         rows.append(cells)
-    head: list[Cell] = ["", "reach, m", "guaranteed", "poses reached"]
+    head: list[Cell] = ["", "reach, m", f"least at {chosen(d.level)} of the poses", "poses reached"]
     head += [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
     shown = "all of them" if len(picked) == len(d.front) else f"{len(picked)} of {len(d.front)}, spread over the reach"
     caption = f"Designs of the front by reach ({shown}): none that was found has more of both."
@@ -261,15 +261,15 @@ def _distributions(d: Designs) -> list[Block]:
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (
         f"{samples:,} fresh poses of the region, which had no part in the search, each at its best configuration; a pose that "
-        f"is not reached counts as 0. Where a curve crosses {chosen(1 - d.level)} is the guaranteed value."
+        f"is not reached counts as 0. A curve crosses {chosen(1 - d.level)} at the quantile in the table."
     )
     rows: list[list[Cell]] = [
         [name, interval_text(c.guaranteed), number(float(c.distribution.quantile(0.5, reachable_only=False))), _reached(c)]
         for name, c in (("given arm", given), ("best design", best))
     ]
-    head = ["", f"guaranteed for {chosen(d.level)} of the poses", "median", "poses reached"]
+    head = ["", f"least at {chosen(d.level)} of the poses", "median", "poses reached"]
     honest = (
-        f"On the {counted(d.poses, 'pose')} on which it was chosen the best design guarantees {number(seen)}; on fresh ones "
+        f"On the {counted(d.poses, 'pose')} on which it was chosen the best design keeps {number(seen)}; on fresh ones "
         f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is the optimism of choosing on them."
     )
     return [
