@@ -40,6 +40,11 @@ def capitalised(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def format_seconds(time: float) -> str:
+    """Return an instant in seconds: four digits, and never less than tenths of a second."""
+    return f"{time:.4g} s" if abs(time) < 1000 else f"{time:.1f} s"
+
+
 def number(x: float) -> str:
     """Three digits or so, alike in a column of values of one kind; what is below 1e-9 is rounding and reads 0."""
     if np.isnan(x):

@@ -15,6 +15,7 @@ from holdfast.diagnosis.kinds import Verdict
 from holdfast.diagnosis.signals import Scaled, Signals
 from holdfast.faults.log import Log
 from holdfast.result import Result
+from holdfast.words import format_seconds
 
 _ENOUGH = 2.0  # of its tracking bound: a reference that moves by less shows no lock
 _FASTER = 1.1  # than in calibration
@@ -85,10 +86,10 @@ class Diagnosis(Result):
         if not v.alarm:
             lines = [f"no fault seen in {self.log.duration:.4g} s"]
         elif v.kind == "contact":
-            lines = [f"alarm at {v.time:.4g} s: something pushed the arm; no joint is to blame"]
+            lines = [f"alarm at {format_seconds(v.time)}: something pushed the arm; no joint is to blame"]
         else:
             lost = f" (it gives {1 - v.loss:.0%} of its torque, ± {v.uncertainty:.0%})" if v.kind == "weak" else ""
-            lines = [f"alarm at {v.time:.4g} s: {v.joint or 'a joint that is not known'} {_KINDS[v.kind]}{lost}"]
+            lines = [f"alarm at {format_seconds(v.time)}: {v.joint or 'a joint that is not known'} {_KINDS[v.kind]}{lost}"]
         lines += list(v.evidence)
         others = [kind for kind in v.candidates if kind != v.kind]
         if others:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,10 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.diagnosis.fitting import fitted, scaled
-from holdfast.diagnosis.signals import signals_of
+from holdfast.diagnosis.plausibility import prepare_log, require_explained, require_following
+from holdfast.diagnosis.signals import LIMITS, signals_of
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 from holdfast.files import reading
+from holdfast.files.digest import check_seal, is_sealed, seal_document
 from holdfast.files.output import replaced
 from holdfast.notice import each, says
 from holdfast.result import Result
@@ -26,7 +29,9 @@ Array = NDArray[np.float64]
 FACTOR, ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors alone
 OFF_RATE = 0.01  # of the rate: so much may a record differ from its bounds
 _HOUR = 3600.0
-_FORMAT = 1
+_UNSEALED_FORMAT, _FORMAT = 1, 2  # the first has no digest
+_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
+_LARGEST_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -83,6 +88,16 @@ class Bounds(Result):
 
         return self.alarms / self.hours, float(chi2.ppf(0.95, 2 * self.alarms + 2) / (2 * self.hours))
 
+    def lock_delays(self) -> Array:
+        """Return the time (n,) in s from a lock to the alarm of joint sensors, at half the calibrated speed.
+
+        The joint falls behind by ``v t``, whose excess over the tracking bound ``b`` reaches the limit ``L`` after
+        ``b / v + sqrt(2 L b / v)``; infinite for a joint that never moved.
+        """
+        with np.errstate(divide="ignore"):
+            time_to_bound = self.tracking / (self.speed / 2)
+        return np.asarray(time_to_bound + np.sqrt(2 * LIMITS["tracking"] * time_to_bound))
+
     def body(self, arm: Arm) -> Arm:
         """The arm with the masses that its torques are compared with."""
         return scaled(arm, self.scales)
@@ -100,6 +115,13 @@ class Bounds(Result):
                 f"false alarms: {self.alarms} where each record is watched with the bounds of the others; with 95 % confidence "
                 f"fewer than {told[1]:.3g} an hour, for this arm and motion as it was recorded"
             )
+        if (self.speed > 0).any():
+            delays = self.lock_delays()
+            slowest = int(np.where(np.isfinite(delays), delays, -1.0).argmax())
+            lines.append(
+                f"a joint that locks while it moves at half its fastest calibrated speed is detected by its position after at "
+                f"most {1e3 * delays[slowest]:.0f} ms ({self.joints[slowest]}); its torque usually shows it earlier"
+            )
         if (self.scales != 1).any():
             low, high = self.scales.min(), self.scales.max()
             lines.append(f"friction and masses are fitted to the records, masses {low:.2f} to {high:.2f} times the arm's")
@@ -113,10 +135,39 @@ class Bounds(Result):
         Raises:
             StoreError: It cannot be written.
         """
-        data = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(self).items()}
-        text = json.dumps({"format": _FORMAT, **data}, indent=2).replace("Infinity", "null")
-        replaced(Path(file), text + "\n", "bounds")
+        data: dict[str, Any] = {"format": _FORMAT}
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                data[name] = [x if np.isfinite(x) else None for x in value.tolist()]
+            else:
+                data[name] = None if value == np.inf else value
+        replaced(Path(file), seal_document(data), "bounds")
         return Path(file)
+
+    def require_sound(self) -> None:
+        """Refuse bounds with which a monitor would detect nothing or everything.
+
+        Raises:
+            InputError: A value of the wrong length or size; the message names it.
+        """
+        n = len(self.joints)
+        vectors = {name: getattr(self, name) for name in _VECTORS}
+        for name, value in vectors.items():
+            if value.shape != (n,):
+                raise InputError(f"{name} has shape {value.shape}; it must be ({n},), one value for each joint")
+        measured = {"torque": self.torque, "change": self.change, "tracking": self.tracking, "scales": self.scales}
+        if np.isinf(self.torque).all() and np.isinf(self.change).all():
+            del measured["torque"], measured["change"]
+        if not (self.position == np.inf == self.angle):
+            measured |= {"position": np.atleast_1d(self.position), "angle": np.atleast_1d(self.angle)}
+        measured |= {"rate": np.atleast_1d(self.rate), "hours": np.atleast_1d(self.hours)}
+        for name, value in measured.items():
+            _require_between(name, value, np.finfo(np.float64).tiny, "above 0")
+        for name in ("coulomb", "viscous", "speed"):
+            _require_between(name, vectors[name], 0.0, "0 or more")
+        _require_between("factor", np.atleast_1d(self.factor), 1.0, "1 or more")
+        if not self.logs >= 1 or not (self.alarms is None or self.alarms >= 0):
+            raise InputError(f"it counts {self.alarms} false alarms in {self.logs} logs; both are numbers of 0 or more")
 
     def require(self, arm: Arm, rate: float) -> None:
         """Refuse another arm or another rate.
@@ -141,19 +192,41 @@ def load(file: str | Path) -> Bounds:
     with reading.guarded(f"bounds '{file}'", "give the file that calibrate wrote"):
         text = reading.raw(file).decode("utf-8", "replace")
     try:
+        if is_sealed(text):
+            check_seal(text)
         data = json.loads(text)
-        if data.pop("format") != _FORMAT:
+        if data.pop("format") != (_FORMAT if data.pop("digest", None) else _UNSEALED_FORMAT):
             raise ValueError
-        none = {None: np.inf}
-        data.setdefault("scales", [1.0] * len(data["joints"]))  # files of before
+        if "scales" not in data:  # files of earlier versions
+            data["scales"] = [1.0] * len(data["joints"])
         data.setdefault("change", data["torque"])
-        for name in ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed"):
-            data[name] = np.array([none.get(x, x) for x in data[name]], dtype=np.float64)
-        for name in ("position", "angle"):
-            data[name] = none.get(data[name], data[name])
-        return Bounds(**{**data, "joints": tuple(data["joints"])})
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        for name in _VECTORS:
+            data[name] = np.array([_number(x) for x in data[name]], dtype=np.float64)
+        for name in ("position", "angle", "rate", "factor", "hours"):
+            data[name] = _number(data[name])
+        for name in ("logs", "alarms"):
+            if not (isinstance(data[name], int) or (name == "alarms" and data[name] is None)):
+                raise ValueError
+        bounds = Bounds(**{**data, "joints": tuple(map(str, data["joints"]))})
+        bounds.require_sound()
+        return bounds
+    except InputError as error:
+        raise InputError(f"bounds '{file}': {error}; make the file again with holdfast calibrate") from error
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
         raise InputError(f"bounds '{file}': it is no file of bounds; make one with holdfast calibrate") from error
+
+
+def _number(value: Any) -> float:
+    """Return a number of the file, of which null stands for infinity."""
+    if isinstance(value, bool) or not isinstance(value, int | float | None):
+        raise ValueError
+    return np.inf if value is None else float(value)
+
+
+def _require_between(name: str, value: Array, least: float, wanted: str) -> None:
+    wrong = np.flatnonzero(~((value >= least) & (value <= _LARGEST_VALUE)))
+    if wrong.size:
+        raise InputError(f"{name} is {value[wrong[0]]:g}; it must be {wanted} and at most {_LARGEST_VALUE:g}")
 
 
 @checked
@@ -184,8 +257,8 @@ def calibrate(
             that is given is kept.
 
     Raises:
-        InputError: No records, records of another arm or of several rates, or that have the measured joints as references; or a
-            factor below 1.
+        InputError: No records, records of another arm or of several rates, records that the arm's model does not explain
+            (units, signs, order of joints), or that have the measured joints as references; or a factor below 1.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
 
     Source: derived here. That residuals are bounded rather than modelled as noise is measured: they are friction, inertia and
@@ -199,15 +272,19 @@ def calibrate(
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
     dry = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
     wet = np.array([j.friction for j in arm.joints]) if viscous is None else np.broadcast_to(np.asarray(viscous), (arm.n,))
+    logs = [prepare_log(arm, log) for log in logs]
     rate = logs[0].rate
     for log in logs:
         if abs(log.rate / rate - 1) > OFF_RATE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
+    require_following(arm, logs)
     scales = np.ones(arm.n)
+    found = [signals_of(arm, log, coulomb=dry, viscous=wet) for log in each("records", logs)]
+    require_explained(arm, found)
     if fit:
         scales, dry, wet = fitted(arm, logs, dry, wet)
-    body = scaled(arm, scales)
-    found = [signals_of(arm, log, coulomb=dry, viscous=wet, body=body) for log in each("records", logs)]
+        body = scaled(arm, scales)
+        found = [signals_of(arm, log, coulomb=dry, viscous=wet, body=body) for log in each("records", logs)]
     largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
     if all(np.isnan(s.tracking).all() for s in found):
         raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")

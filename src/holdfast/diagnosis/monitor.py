@@ -14,6 +14,7 @@ from holdfast.diagnosis.decision import CLASSIFY, ISOLATE, UNSURE, Decision
 from holdfast.diagnosis.gaps import STALE, cycles
 from holdfast.diagnosis.kinds import Verdict
 from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, friction_torque, level, momentum_kernel
+from holdfast.diagnosis.plausibility import prepare_log
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.diagnosis.signals import CALM, LIMITS, SLOW, SMOOTHED, Scaled, Signals, signals_of, tool_residual
 from holdfast.faults.log import Log
@@ -71,6 +72,7 @@ class Monitor:
         bounds = self.bounds
         bounds.require(self.arm, log.rate)
         body = bounds.body(self.arm)
+        log = prepare_log(self.arm, log)
         signals = signals_of(self.arm, log, coulomb=bounds.coulomb, viscous=bounds.viscous, body=body)
         scaled = signals.scaled(bounds.torque, bounds.tracking, bounds.position, bounds.angle)
         verdict = Verdict(False) if scaled.alarm is None else self._followed(log, signals, scaled, *scaled.alarm)

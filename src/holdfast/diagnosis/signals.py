@@ -123,7 +123,6 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
         InputError: A record of another arm, in other units, or without a row that has all of its numbers.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
     """
-    log.require(arm)
     dt, told = 1 / log.rate, seen(log)
     levels, tracking = ["tracking"], np.where(told[:, None], log.q_ref - log.q, np.nan)
     r, v, gravity, asked = (np.where(told[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4))

@@ -1,4 +1,4 @@
-"""Which columns of a table hold what, in which units: records as other programs write them."""
+"""Read columns of tables, with their units, into the arrays of a log."""
 
 from __future__ import annotations
 
@@ -101,8 +101,13 @@ def _csv(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
     """Names, and a column's numbers; empty cells are NaN. Commas, semicolons or tabs part cells, as in the first line."""
     lines = raw.decode("utf-8-sig", "replace").splitlines()
     mark = max(",;\t", key=(lines[0] if lines else "").count)
-    rows = [(k, row) for k, row in enumerate(csv.reader(lines, delimiter=mark), start=1) if row]
-    header = [name.strip() for name in rows[0][1]] if rows else []
+    try:
+        rows = [(k, row) for k, row in enumerate(csv.reader(lines, delimiter=mark), start=1) if row]
+    except csv.Error as error:  # a cell of more than 131,072 characters, or a NUL character
+        raise InputError(f"it is no table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error
+    if len(rows) < 2:
+        raise InputError("it has no rows of numbers; give a header and a line for each sample")
+    header = [name.strip() for name in rows[0][1]]
     for k, row in rows:
         if len(row) != len(header):
             raise InputError(f"line {k} has {len(row)} cells, and the first line {len(header)}")
@@ -136,14 +141,32 @@ def arrow() -> tuple[Any, Any]:
 def _parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
     pyarrow, parquet = arrow()
     try:
-        table = parquet.read_table(io.BytesIO(raw))
-    except pyarrow.ArrowException as error:
-        raise InputError("it is no Parquet file; give one with columns t, q_ref_1, ..., q_1, ...") from error
+        # Threads of pyarrow end the whole process where they still run when Python ends.
+        table = parquet.read_table(io.BytesIO(raw), use_threads=False, pre_buffer=False)
+    except Exception as error:  # damaged files raise many kinds
+        raise InputError("it is no Parquet file that can be read; give one with columns t, q_ref_1, ..., q_1, ...") from error
+    names = []
+    for field in table.schema:
+        lengths = _list_lengths(pyarrow, table[field.name]) if pyarrow.types.is_nested(field.type) else 0
+        names += [field.name, *(f"{field.name}[{k}]" for k in range(lengths))]
 
     def numbers(name: str) -> Array:
+        entry = re.fullmatch(r"(.*)\[(\d+)\]", name)
+        whole, chosen = (entry[1], int(entry[2])) if name not in table.column_names and entry else (name, None)
         try:
-            return np.asarray(table[name], dtype=np.float64)
-        except (ValueError, TypeError) as error:
-            raise InputError(f"column '{name}' does not hold numbers") from error
+            if not _list_lengths(pyarrow, table[whole]):
+                return np.asarray(table[whole], dtype=np.float64)
+            values = np.array(table[whole].to_pylist(), dtype=np.float64)
+        except Exception as error:  # lists of unequal lengths, text, dates, damaged pages
+            raise InputError(f"column '{whole}' does not hold numbers or lists of numbers of one length") from error
+        return values if chosen is None else values[:, chosen]
 
-    return table.column_names, numbers
+    return names, numbers
+
+
+def _list_lengths(pyarrow: Any, column: Any) -> int:
+    """Return the length of the lists in a column, 0 where it holds single values."""
+    if not pyarrow.types.is_nested(column.type) or not len(column):
+        return 0
+    first = column[0].as_py()
+    return len(first) if isinstance(first, list) else 0

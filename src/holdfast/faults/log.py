@@ -21,12 +21,17 @@ _NEEDED = ("t", "q_ref", "q")
 _CLOCK = 1e6  # s: later times are those of a clock
 _LEAST = 40.0  # Hz: the observer's own rate, below which it says nothing
 _SPARSE = 20  # times as many samples as there are: longer gaps are between records, not in one
+_UNEVEN = 0.01  # of the period: time stamps that differ less from even ones are even
 _BEYOND, _FASTER = 0.5, 2.0  # rad or m beyond a limit, and of a speed limit: such references are in other units
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Log:
-    """T samples of n joints, evenly spaced: where times leap, rows of NaN stand for the samples that are missing.
+    """T samples of n joints, evenly spaced.
+
+    Where times leap, rows of NaN stand for the samples that are missing. Where the clock is uneven and the references are
+    smooth over its times, the joint signals are interpolated to even times; where they are smooth over the sample number,
+    only the time stamps are uneven, and the signals stay as they are.
 
     Attributes:
         t: (T,) s, increasing.
@@ -50,8 +55,8 @@ class Log:
 
     def __post_init__(self) -> None:
         t = np.asarray(self.t, dtype=np.float64)
-        if t.ndim != 1 or len(t) < 2:
-            raise InputError(f"t has shape {t.shape}; it must be the times of two samples or more, s")
+        if t.ndim != 1 or len(t) < 2 or not np.isfinite(t).all():
+            raise InputError(f"t has shape {t.shape}; it must be the finite times of two samples or more, s")
         if not (np.diff(t) > 0).all():
             row = int(np.flatnonzero(~(np.diff(t) > 0))[0]) + 1
             raise InputError(f"t does not increase at row {row}: {t[row - 1]:g} s, then {t[row]:g} s")
@@ -67,11 +72,11 @@ class Log:
             object.__setattr__(self, name, array)
         if (self.x is None) != (self.quat is None):
             raise InputError("only one of x and quat is there; give the tool's position and its orientation, or neither")
-        rows = np.r_[0, np.cumsum(np.maximum(np.rint(np.diff(t) * self.rate), 1))].astype(np.int64)
+        rows = _rows_of(t)
         count = int(rows[-1]) + 1
         if count > _SPARSE * len(t):
             raise InputError(
-                f"nearly all samples are missing: {len(t)} in {self.duration:.4g} s, at {self.rate:.4g} a second; "
+                f"nearly all samples are missing: {len(t)} in {self.duration:.4g} s, at {count / self.duration:.4g} a second; "
                 "give its parts as records of their own"
             )
         if count > len(t):
@@ -81,6 +86,13 @@ class Log:
                     whole = np.full((count, value.shape[1]), np.nan)
                     whole[rows] = value
                     object.__setattr__(self, name, whole)
+        else:
+            even = np.linspace(t[0], t[-1], len(t))
+            if np.abs(t - even).max() > _UNEVEN / self.rate and _bend(_at(even, t, self.q_ref)) < _bend(self.q_ref):
+                object.__setattr__(self, "t", even)
+                for name in ("q_ref", "q", "tau"):
+                    if (value := getattr(self, name)) is not None:
+                        object.__setattr__(self, name, _at(even, t, value))
 
     @property
     def n(self) -> int:
@@ -89,9 +101,8 @@ class Log:
 
     @property
     def rate(self) -> float:
-        """Samples per second, without gaps."""
-        steps = np.diff(self.t)
-        return float(1 / steps[steps <= 1.5 * np.median(steps)].mean())
+        """Samples per second."""
+        return (len(self.t) - 1) / self.duration
 
     @property
     def duration(self) -> float:
@@ -105,7 +116,10 @@ class Log:
             InputError: Another number of joints, fewer than 40 samples a second, or references far beyond what joints can.
         """
         if self.n != arm.n:
-            raise InputError(f"the record has {self.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
+            raise InputError(
+                f"the record has {self.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded, or name the "
+                "columns of its joints"
+            )
         if self.rate < _LEAST:
             raise InputError(f"the record has {self.rate:.4g} samples a second; it must have {_LEAST:g} or more, with t in s")
         for joint, q in zip(arm.joints, self.q_ref.T, strict=True):
@@ -152,7 +166,7 @@ class Log:
             missing = [name for name in _NEEDED if name not in arrays]
             if missing:
                 raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
-            if arrays["t"][:1] > _CLOCK:
+            if arrays["t"].ndim == 1 and (arrays["t"][:1] > _CLOCK).any():
                 arrays["t"] = arrays["t"] - arrays["t"][0]
             return cls(**arrays)._earlier(latency)
         except InputError as error:
@@ -195,6 +209,29 @@ class Log:
             arrays = {**given, **more}
             np.savez_compressed(stream, **{x: a if x == "t" else a.astype(np.float32) for x, a in arrays.items()})
         return path
+
+
+def _rows_of(t: Array) -> NDArray[np.int64]:
+    """Return the row of each sample on an even grid; rows between them are missing samples.
+
+    An uneven clock shifts times to and fro about their grid, a gap shifts all later ones; the closer grid is taken.
+    """
+    steps = np.diff(t)
+    even = np.arange(len(t), dtype=np.int64)
+    period = steps[steps <= 1.5 * np.median(steps)].mean()
+    counts = np.maximum(np.rint(np.minimum(steps / period, _SPARSE * len(t) + 1)), 1)
+    gapped = np.r_[0, np.cumsum(counts)].astype(np.int64)
+    return min((gapped, even), key=lambda rows: float(np.std(t * (rows[-1] / (t[-1] - t[0])) - rows)))
+
+
+def _at(times: Array, t: Array, values: Array) -> Array:
+    """Return values (T, n), known at ``t``, at other times."""
+    return np.stack([np.interp(times, t, column) for column in values.T], axis=1)
+
+
+def _bend(values: Array) -> float:
+    """Return the sum of squared second differences of values (T, n)."""
+    return float(np.nansum(np.diff(values, n=2, axis=0) ** 2))
 
 
 def _from_npz(path: Path) -> dict[str, Array]:
