@@ -114,7 +114,7 @@ def table(store: Store, count: int) -> list[str]:
     lines += [f"* {one['kind']} of {one['joint']}, called {one['named']} of {one['said']}" for one in wrong]
     lines += [
         "",
-        f"A latency that is not declared: {UNDECLARED} other healthy logs whose poses are {LATE / RATE * 1e3:g} ms late, without "
-        f"`--latency`. Alarms in {of(len(alarmed), UNDECLARED)}, called {', '.join(sorted(set(alarmed))) or '-'}.",
+        f"A latency that is not declared: {UNDECLARED} other healthy logs whose poses are {LATE / RATE * 1e3:g} ms late, "
+        f"without `--latency`. Alarms in {of(len(alarmed), UNDECLARED)}, called {', '.join(sorted(set(alarmed))) or '-'}.",
     ]
     return [*lines, ""]

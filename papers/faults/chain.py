@@ -269,7 +269,8 @@ def main() -> None:
         f"poses, {AWAY[0]:g} to {AWAY[1]:g} m away; the healthy robot reaches it within {LIMIT:g} s. One fault begins after "
         f"{ONSET[0]:g} to {ONSET[1]:g} s. Law: damped inverse, {SPEED:g} m/s, joints drawn to their middle at {CENTRING:g}/s "
         "but in one column, and kept at their limits. Finished: the true tool within 5 mm and 1 deg for 0.2 s, after "
-        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with exact 95 % intervals (Clopper and Pearson)."
+        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with exact 95 % intervals "
+        "(Clopper and Pearson)."
     )
     lines = [*table(rows), "", *sentences(rows, chosen.robots)]
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"
