@@ -81,7 +81,7 @@ def main() -> None:
         f"tool passed on the rest of its way when there was none, at least {100 * AWAY:g} cm from where it was braked and from "
         "the target, and not in the way of an arm that is stopping. So each task is finished without the ball, and "
         "**each would touch it if nobody looked out**. Touched: a link's mesh touches the ball. "
-        "Whether there is a way round is not known. Fractions are in per cent, with 95 % intervals."
+        "Whether there is a way round is not known. Fractions are in per cent, with exact 95 % intervals (Clopper and Pearson)."
     )
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults and balls)"
     write("cell", f"A ball in the way, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))

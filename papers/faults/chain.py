@@ -18,7 +18,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.diagnosis import Bounds, Monitor, calibrate, diagnose
 from holdfast.faults import Fault, Faults, feasible
-from holdfast.probability import Interval
+from papers.faults.store import limits
 
 HERE = Path(__file__).parent
 TASKS, DRAWS, CALIBRATION = 2500, 25, 900_000  # seeds
@@ -155,12 +155,11 @@ def made_with() -> str:
 
 
 def percent(rows: Sequence[Mapping[str, Any]], name: str) -> str:
-    """Of the rows in which it holds, with the 95 % interval of Wilson."""
+    """Format the percentage of the rows in which a column holds, with its exact 95 % interval."""
     hits = sum(bool(row[name]) for row in rows)
     if not rows:
         return "-"
-    told = Interval.of(hits, len(rows))
-    return f"{100 * hits / len(rows):.1f} ({100 * told.low:.0f} to {100 * told.high:.0f})"
+    return f"{100 * hits / len(rows):.1f} ({limits(hits, len(rows))})"
 
 
 def grouped(groups: Mapping[str, Sequence[Mapping[str, Any]]], columns: Sequence[str], *, counted: str) -> list[str]:
@@ -270,7 +269,8 @@ def main() -> None:
         f"poses, {AWAY[0]:g} to {AWAY[1]:g} m away; the healthy robot reaches it within {LIMIT:g} s. One fault begins after "
         f"{ONSET[0]:g} to {ONSET[1]:g} s. Law: damped inverse, {SPEED:g} m/s, joints drawn to their middle at {CENTRING:g}/s "
         "but in one column, and kept at their limits. Finished: the true tool within 5 mm and 1 deg for 0.2 s, after "
-        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with 95 % intervals."
+        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with exact 95 % intervals "
+        "(Clopper and Pearson)."
     )
     lines = [*table(rows), "", *sentences(rows, chosen.robots)]
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"

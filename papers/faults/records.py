@@ -39,6 +39,7 @@ def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, kind: str, numbers: range) 
     events = [faults.draw(arm, episode=k) for k in numbers]
     logs = hf.diagnosis.rehearse_many(arm, LENGTH, seeds=[SEEDS + k for k in numbers], faults=events)
     found = []
+    _, stiffness, damping = hf.Body().model(arm, hf.Servos(rate=bounds.rate))
     for (event,), log in zip(events, logs, strict=True):
         verdict = hf.diagnosis.diagnose(arm, log, bounds).verdict
         entry: dict[str, Any] = {"joint": arm.joint_index(event.joint) + 1, "noticed": bool(verdict.alarm)}
@@ -47,6 +48,10 @@ def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, kind: str, numbers: range) 
             both = arm.forward_kinematics(np.stack([log.q_ref[at], log.q[at]]))[:, :3, 3]
             entry |= {"delay": verdict.time - event.onset, "right": verdict.joint == event.joint, "kind": verdict.kind}
             entry["distance"] = 1e3 * float(np.linalg.norm(both[0] - both[1]))
+            if kind == "locked":
+                gains = {"stiffness": stiffness, "damping": damping}
+                expected = hf.diagnosis.expected_delays(bounds, log.q_ref, **gains, onset=event.onset)
+                entry["expected"] = float(expected[entry["joint"] - 1])
             if kind == "weak" and np.isfinite(verdict.loss):
                 entry |= {"off": verdict.loss - (1 - float(event.parameters["gain"])), "uncertainty": verdict.uncertainty}
         found.append(entry)
@@ -89,12 +94,25 @@ def losses(found: Sequence[Mapping[str, Any]]) -> list[str]:
     return [*lines, ""]
 
 
+def predictions(locked: Sequence[Mapping[str, Any]]) -> list[str]:
+    """How well :func:`holdfast.diagnosis.expected_delays` predicts the delays of the locks."""
+    ratios = np.array([one["delay"] / one["expected"] for one in locked if one.get("expected") and one["delay"] >= 0])
+    if not ratios.size:
+        return []
+    near = int(((ratios >= 0.5) & (ratios <= 2)).sum())
+    return [
+        f"Delays of locks, as `expected_delays` predicts them from the motion and the servos: measured / predicted is "
+        f"{np.median(ratios):.2f} in the median and {ratios.min():.2f} to {ratios.max():.2f}; within a factor of 2 in "
+        f"{of(near, ratios.size)}.",
+        "",
+    ]
+
+
 def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, count: int, sensors: int) -> list[str]:
     """All kinds."""
-    lines, weak = [*HEAD], list[Any]()
+    lines, parts = [*HEAD], dict[str, list[Any]]()
     for kind in KINDS:
         size = sensors if kind in POSED else count
-        found = store.some(f"{kind} {robots}", size, partial(judged, store.arm, bounds, kind))
-        weak = found if kind == "weak" else weak
-        lines.append(row(kind, found))
-    return [*lines, "", *losses(weak)]
+        parts[kind] = store.some(f"{kind} {robots}", size, partial(judged, store.arm, bounds, kind))
+        lines.append(row(kind, parts[kind]))
+    return [*lines, "", *predictions(parts["locked"]), *losses(parts["weak"])]

@@ -81,7 +81,7 @@ def main() -> None:
         f"the other, each locked, free-swinging or with a frozen sensor: the first after {ONSET[0]:g} to {ONSET[1]:g} s, the "
         f"second {AFTER:g} s after the first was braked; tasks that are over before are left out. Feasible: a motion to the "
         "target exists, from where the arm is when the second fault begins, with both joints locked there. Fractions are in "
-        "per cent, with 95 % intervals."
+        "per cent, with exact 95 % intervals (Clopper and Pearson)."
     )
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"
     write("second", f"A second fault, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))

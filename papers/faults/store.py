@@ -65,8 +65,13 @@ class Store:
 
 
 def of(hits: int, size: int) -> str:
-    """``hits of size`` with the exact 95 % interval."""
+    """``hits of size`` with the exact 95 % interval of Clopper and Pearson."""
     if not size:
         return "-"
-    told = Interval.of(hits, size)
-    return f"{hits} of {size} ({100 * told.low:.4g} to {100 * told.high:.4g} %)"
+    return f"{hits} of {size} ({limits(hits, size)} %)"
+
+
+def limits(hits: int, size: int) -> str:
+    """The exact 95 % interval of Clopper and Pearson in per cent, to four digits: an upper end of 99.69 is not 100."""
+    interval = Interval.of(hits, size)
+    return f"{100 * interval.low:.4g} to {100 * interval.high:.4g}"

@@ -12,6 +12,7 @@ from holdfast.endurance import tables
 from holdfast.endurance.problem import posed
 from holdfast.errors import HoldfastError, InputError, TaskError
 from holdfast.paths import Constant, TimedPath, line
+from holdfast.words import percent
 from unit_links import LIMITS, arm, around, configuration, places, survives, timed
 
 
@@ -92,6 +93,14 @@ def test_nothing_survives_more_than_brute_force_finds(narrow):
     assert best.bound == pytest.approx(bound, abs=0.01)
     assert 0.2 < best.survival <= best.bound + 1e-9 < 1
     assert not best.guaranteed
+
+
+def test_a_survival_is_quoted_with_what_is_possible(narrow):
+    """Also in the first line of the report: another motion may survive more than the one that was found."""
+    _, _, best = narrow
+    assert best.survival <= best.bound + 1e-9 < 1
+    assert f"no motion along this path survives more than {percent(best.bound)}" in best.headline
+    assert best.headline in best.describe()[0]
 
 
 def test_the_motion_follows_the_path_and_survives_what_it_says(narrow):

@@ -3,7 +3,7 @@ A fault in a record
 ===================
 
 A simulated Panda whose third joint locks while it moves: the monitor, calibrated on records of
-the healthy arm, names it some 10 ms later. Each panel shows residuals in units of their bounds.
+the healthy arm, names it within 10 ms. Each panel shows residuals in units of their bounds.
 """
 
 import holdfast as hf

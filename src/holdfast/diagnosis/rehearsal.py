@@ -16,7 +16,8 @@ from holdfast.faults.events import FaultEvent
 from holdfast.faults.injector import FaultInjector
 from holdfast.faults.log import Log
 from holdfast.notice import each, says
-from holdfast.physics.body import Body, spread, with_motors
+from holdfast.physics.body import Body
+from holdfast.physics.drives import Drives
 from holdfast.physics.servos import Servos
 
 Array = NDArray[np.float64]
@@ -24,7 +25,6 @@ Array = NDArray[np.float64]
 _STEP = 1e-3  # s
 _HALF = 0.6  # rad or m to either side of the middle, at most; and half of the room to the limits
 _POSE_RATE = 100.0  # Hz
-_FAST = 10.0  # rad/s or m/s: servos feel no more
 _AT_ONCE = 10  # robots: more leave the processor's cache
 
 
@@ -68,8 +68,10 @@ def rehearse(
 ) -> Log:
     """A record of a simulated arm that swings each joint to and fro, with noise (needs ``holdfast[physics]``).
 
-    Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a motion. The body
-    is not quite the arm's model: masses and friction are off by up to ``mismatch``. Faults begin and end as their events say.
+    Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a motion. Each
+    drive closes its velocity loop faster than the control cycle of 1 kHz. The linearised cycle of every built-in arm with
+    inertial data has no eigenvalue above 0.98 in magnitude. The body is not quite the arm's model: masses and friction are off
+    by up to ``mismatch``. Faults begin and end as their events say.
 
     Args:
         arm: The arm, with inertial data.
@@ -170,10 +172,9 @@ class _Robot:
         pushes: Sequence[Push],
     ) -> None:
         self._mujoco, self.reference, self.rng, self.happens = import_mujoco(), reference, rng, bool(faults or pushes)
-        self.body, self.model = body, with_motors(arm, step=_STEP, rotor=body.rotor)
-        spread(self.model, body.seed, mismatch=body.mismatch, coulomb=body.coulomb, viscous=body.viscous)
+        self.body = body
+        self.model, self.stiffness, self.damping = body.model(arm, Servos(rate=1 / _STEP))
         self.data = self._mujoco.MjData(self.model)
-        self.stiffness, self.damping = Servos(step=_STEP).gains(arm, self._mujoco, self.model, start=np.zeros(arm.n))
         self.data.qpos[:] = reference[0]
         self._mujoco.mj_forward(self.model, self.data)
         self.injector = FaultInjector(self.model, self.data, arm, faults=faults)
@@ -190,44 +191,48 @@ class _Robot:
 
 
 def _records(arm: Arm, robots: Sequence[_Robot], pose: bool) -> list[Log]:
-    """What robots (R of them) record of motions of one length, one step of all after the other."""
+    """Return what robots record of motions of one length."""
+    measured, true, torque = _run_cycles(arm, robots)
+    t, logs = np.arange(len(true), dtype=np.float64) * _STEP, []
+    for r, robot in enumerate(robots):
+        x, quat = _measured(arm, true[:, r], robot) if pose else (None, None)
+        tau = torque[:, r] + robot.rng.normal(0, robot.body.torque, (len(t), arm.n))
+        logs.append(Log(t=t, q_ref=robot.reference, q=measured[:, r].copy(), tau=tau, x=x, quat=quat))
+    return logs
+
+
+def _run_cycles(arm: Arm, robots: Sequence[_Robot]) -> tuple[Array, Array, Array]:
+    """Run R robots, one control cycle of all after the other; return measured and true positions and torques (T, R, n)."""
     step, count, n = import_mujoco().mj_step, len(robots[0].reference), arm.n
     t = np.arange(count, dtype=np.float64) * _STEP
     reference = np.stack([robot.reference for robot in robots], axis=1)
     noise = np.stack([robot.rng.normal(0, robot.body.joint, (count, n)) for robot in robots], axis=1)
     stiffness, damping = (np.array([getattr(robot, name) for robot in robots]) for name in ("stiffness", "damping"))
+    drives = Drives(stiffness, damping, effort=np.array([joint.effort for joint in arm.joints]), period=_STEP)
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _STEP
-    told, tau, true = np.empty_like(reference), np.empty_like(reference), np.empty_like(reference)
-    effort = np.array([joint.effort for joint in arm.joints])
+    rates[-1] = rates[max(-2, -count)]  # the motion goes on after the record
+    measured, commands, true = np.empty_like(reference), np.empty_like(reference), np.empty((count + 1, len(robots), n))
     gravity = arm._gravity_torque_kernel.single() if len(robots) == 1 else arm._gravity_torque_kernel.rows
     places, happening = [robot.data.qpos for robot in robots], [robot for robot in robots if robot.happens]
     moved = [(robot.model, robot.data, robot.data.ctrl) for robot in robots]
-    last = reference[0]
     for k in each("control cycles", range(count), every=1000):
         for robot in happening:
             robot.injector.before_step(t[k])
-        now, q = true[k], told[k]
+        now, q = true[k], measured[k]
         np.concatenate(places, out=now.reshape(-1))
         np.add(now, noise[k], out=q)
         for r, robot in enumerate(robots if happening else ()):
             q[r] = robot.injector.read(now[r], reference=reference[k, r]) + noise[k, r]
-        v = (q - last) / _STEP if k else np.zeros_like(q)
-        last = q
-        torque = stiffness * (reference[k] - q) + damping * (rates[k] - np.minimum(np.maximum(v, -_FAST), _FAST))
-        torque += gravity(q.reshape(-1) if len(robots) == 1 else q)
-        tau[k] = np.minimum(np.maximum(torque, -effort), effort)
-        for (model, data, control), row, robot in zip(moved, tau[k], robots, strict=True):
+        drives.sense(q, now)
+        commands[k] = drives.command(reference[k], rates[k], q, gravity(q.reshape(-1) if len(robots) == 1 else q))
+        for (model, data, control), row, robot in zip(moved, commands[k], robots, strict=True):
             control[:] = row
             if robot.happens:
                 robot.injector.before_step(t[k])
                 robot.push(t[k])
             step(model, data)
-    logs = []
-    for r, robot in enumerate(robots):
-        x, quat = _measured(arm, true[:, r], robot) if pose else (None, None)
-        felt = tau[:, r] + robot.rng.normal(0, robot.body.torque, (count, n))
-        logs.append(Log(t=t, q_ref=robot.reference, q=told[:, r].copy(), tau=felt, x=x, quat=quat))
-    return logs
+    np.concatenate(places, out=true[count].reshape(-1))
+    return measured, true[:-1], drives.torque(commands, np.diff(true, axis=0))
 
 
 def _swinging(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> Array:

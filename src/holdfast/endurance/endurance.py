@@ -318,12 +318,13 @@ class Endurance(Result):
         """The answer in a sentence."""
         if self.guaranteed:
             return "every lock of a joint, at any sample of the path, is survived"
-        return f"{_AT[self.kind]}{percent(self.survival)} of all locks of a joint on the way are survived"
+        most = "" if self.bound is None else f"; no motion along this path survives more than {percent(self.bound)}"
+        return f"{_AT[self.kind]}{percent(self.survival)} of all locks of a joint on the way are survived{most}"
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         how = "without leaving the path" if self.mode == "on-path" else "with detours"
-        lines = [f"{self.arm.title}, {self.path.describe()}: {self.headline}, {how}"]
+        lines = [f"{self.arm.title}, {self.path.describe()}, {how}: {self.headline}"]
         if self.kind == "lower bound":
             cone = ", or the axis that is kept in a cone and fewer joints" if self._problem.conditions.left else ""
             lines.append(
@@ -336,7 +337,7 @@ class Endurance(Result):
             low, high = self.found.interval
             within = "within the velocity limits " + ("none is found" if np.isnan(low) else f"the best survives {percent(low)}")
             lines.append(
-                f"no motion survives more than {percent(self.found.bound)}, up to the grid of {len(self.time)} poses and "
+                f"no motion survives more than {percent(self.found.bound)} up to the grid of {len(self.time)} poses and "
                 f"{self.found.spacing:g} rad; over its nodes {within}, with the spacing on top of them {percent(high)}"
             )
         if self.keep:

@@ -56,11 +56,14 @@ class Body:
             raise InputError(f"mismatch of the body is {self.mismatch:g}; it must be below 1, or a mass would be 0")
 
     def model(self, arm: Arm, servos: Servos) -> tuple[Any, Array, Array]:
-        """The robot as a MuJoCo model with a motor, whose control is its torque, at every joint; ``qpos`` counts from 0.
+        """Build the robot as a MuJoCo model with a motor at every joint; ``qpos`` counts from 0.
+
+        A motor's torque is its control less the servo's damping times the joint's rate: a drive's velocity loop, which is much
+        faster than the control cycle.
 
         Args:
-            arm: With inertial data.
-            servos: Whose gains suit the arm's model, and whose rate gives the step.
+            arm: The arm, with inertial data.
+            servos: The servos; their gains suit the arm's model, and their rate gives the step.
 
         Returns:
             ``mujoco.MjModel``; stiffness and damping (n,) of the servos.
@@ -69,9 +72,15 @@ class Body:
             ArmError: Inertial data are missing or impossible, or a joint carries no mass.
             HoldfastError: MuJoCo is not installed.
         """
-        model = with_motors(arm, step=1 / (servos.rate * servos.substeps), rotor=self.rotor)
-        stiffness, damping = servos.gains(arm, import_mujoco(), model, start=np.zeros(arm.n))
-        spread(model, self.seed, mismatch=self.mismatch, coulomb=self.coulomb, viscous=self.viscous)
+        mujoco = import_mujoco()
+        model = _with_motors(arm, step=1 / (servos.rate * servos.substeps), rotor=self.rotor)
+        stiffness, damping = servos.gains(arm, mujoco, model, start=np.zeros(arm.n))
+        model.actuator_biastype[:], model.actuator_biasprm[:, 2] = mujoco.mjtBias.mjBIAS_AFFINE, -damping
+        off = np.random.default_rng([1, self.seed])
+        model.body_mass[1:] *= (scale := 1 + off.uniform(-self.mismatch, self.mismatch, model.nbody - 1))
+        model.body_inertia[1:] *= scale[:, None]
+        model.dof_frictionloss[:] = self.coulomb * (1 + off.uniform(-self.mismatch, self.mismatch, model.nv))
+        model.dof_damping[:] = self.viscous * (1 + off.uniform(-self.mismatch, self.mismatch, model.nv))
         return model, stiffness, damping
 
     def measured(self, poses: Array, rng: np.random.Generator) -> Array:
@@ -85,18 +94,8 @@ class Body:
         return told
 
 
-def with_motors(arm: Arm, *, step: float, rotor: float) -> Any:
-    """The ``mujoco.MjModel`` of an arm with a motor, whose control is its torque, at every joint; ``qpos`` counts from 0.
-
-    Args:
-        arm: With inertial data.
-        step: Of the simulation, s.
-        rotor: Rotor inertia of joints whose model states none, kg m^2 and kg.
-
-    Raises:
-        ArmError: Inertial data are missing or impossible, or a joint carries no mass.
-        HoldfastError: MuJoCo is not installed.
-    """
+def _with_motors(arm: Arm, *, step: float, rotor: float) -> Any:
+    """Build the ``mujoco.MjModel`` of an arm with a motor, whose control is its torque, at every joint."""
     mujoco = import_mujoco()
     spec = mujoco_spec(arm, np.zeros(arm.n), range(arm.n), step=step)
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
@@ -107,12 +106,3 @@ def with_motors(arm: Arm, *, step: float, rotor: float) -> Any:
     model = spec.compile()
     model.dof_armature[:] = [joint.armature or rotor for joint in arm.joints]
     return model
-
-
-def spread(model: Any, seed: int, *, mismatch: float, coulomb: float, viscous: float) -> None:
-    """Give a model masses and friction that are off, as :class:`Body` has them: the same for the same seed."""
-    off = np.random.default_rng([1, seed])
-    model.body_mass[1:] *= (scale := 1 + off.uniform(-mismatch, mismatch, model.nbody - 1))
-    model.body_inertia[1:] *= scale[:, None]
-    model.dof_frictionloss[:] = coulomb * (1 + off.uniform(-mismatch, mismatch, model.nv))
-    model.dof_damping[:] = viscous * (1 + off.uniform(-mismatch, mismatch, model.nv))

@@ -22,6 +22,7 @@ from holdfast.faults.injector import FaultInjector
 from holdfast.faults.scheme import Faults
 from holdfast.notice import each, says
 from holdfast.physics.body import Body
+from holdfast.physics.drives import Drives
 from holdfast.physics.plant import BURST
 from holdfast.physics.servos import Servos, leads
 from holdfast.reaction.controller import Controller
@@ -35,7 +36,6 @@ TIME_LIMIT = 12.0  # s
 THERE, FACING, HELD = 5e-3, np.deg2rad(1.0), 0.2  # m, rad, s: a target that is reached
 POSE_RATE = 100.0  # Hz, of the measured tool
 WAITING = 0.5  # s after which nothing more is expected
-_BAND = 2 * np.pi * 20  # rad/s, of the filter on what a sensor adds to a measured rate
 
 
 @checked
@@ -174,19 +174,16 @@ class _Robot:
         pose: bool,
     ) -> None:
         self.mujoco, self.arm, self.servos, self.body = import_mujoco(), law.arm, servos, body
-        self.model, self.stiffness, self.damping = body.model(law.arm, servos)
-        # The servos' damping is left to MuJoCo, whose integrator is implicit in it: it is stiff where two joints nearly
-        # share an axis.
-        self.model.actuator_biastype[:], self.model.actuator_biasprm[:, 2] = self.mujoco.mjtBias.mjBIAS_AFFINE, -self.damping
+        self.model, stiffness, damping = body.model(law.arm, servos)
         self.data = self.mujoco.MjData(self.model)
         self.data.qpos[:] = start
         self.mujoco.mj_forward(self.model, self.data)
         self.injector = FaultInjector(self.model, self.data, law.arm, faults=faults, horizon=horizon)
         self.injector.reset(episode)
         self.rng, self.dt, self.every = np.random.default_rng([2, seed]), 1 / servos.rate, round(servos.rate / POSE_RATE) or 1
-        self.reference, self._added, self._wrong = start.copy(), np.zeros(law.arm.n), np.zeros(law.arm.n)
-        self.lead, self._pose, self._share = leads(law.arm, self.stiffness), pose, min(1.0, _BAND * self.dt)
-        self.effort = np.array([joint.effort for joint in law.arm.joints])
+        effort = np.array([joint.effort for joint in law.arm.joints])
+        self.drives = Drives(stiffness, damping, effort=effort, period=self.dt)
+        self.reference, self.lead, self._pose = start.copy(), leads(law.arm, stiffness), pose
         self.gravity_of = law.arm._gravity_torque_kernel.single()
         self.began: dict[FaultEvent, float] = {}
         self.rows: list[tuple[Array, ...]] = []
@@ -199,10 +196,8 @@ class _Robot:
             self.began.setdefault(event, place)
         true = self.data.qpos
         told = self.injector.read(true, reference=self.reference) + self.rng.normal(0, self.body.joint, self.arm.n)
-        # The rate as a good observer of the same sensor tells it: the true one, and what the sensor's error adds.
-        wrong = told - true
-        self._added = self._added + self._share * ((wrong - self._wrong) / self.dt - self._added)
-        self._wrong, self.v = wrong, self.data.qvel + self._added
+        self.drives.sense(told, true)
+        self.v = self.data.qvel + self.drives.rate_error
         if not self._pose or k % self.every:
             return told, None
         return told, self.body.measured(self.arm.forward_kinematics(true[None]), self.rng)[0]
@@ -213,11 +208,11 @@ class _Robot:
         inside = np.clip(ahead, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
         self.reference = np.where(mask > 0, inside, q)
         self.gravity = self.gravity_of(q)
-        drive = self.stiffness * (self.reference - q) + self.damping * (rates - self._added) + self.gravity
-        torque = np.clip(drive - self.damping * self.data.qvel, -self.effort, self.effort)
-        self.data.ctrl[:] = drive
+        self.data.ctrl[:] = command = self.drives.command(self.reference, rates, q, self.gravity)
         self.injector.before_step(self.injector.time)
+        before = self.data.qpos.copy()
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
+        torque = self.drives.torque(command, self.data.qpos - before)
         return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
 
     def note(self, true: Array, told: Array, torque: Array, pose: Array | None, off: tuple[float, float]) -> None:

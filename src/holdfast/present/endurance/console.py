@@ -116,8 +116,6 @@ def story(e: Endurance) -> Story:
     """How many locks are survived, and how many could be."""
     _, *lines = map(capitalised, e.describe())
     answer = f"{capitalised(e.headline)}"
-    if e.bound is not None and not e.guaranteed:
-        answer += f"; no motion along this path survives more than {percent(e.bound)}"
     if e.beside:
         other = max(e.beside, key=lambda x: x.survival)
         answer += f"; of the motions beside it {other.name} survives most, {percent(other.survival)}"

@@ -1,0 +1,51 @@
+"""The drives of a simulated robot: a velocity loop inside each motor, and a position loop in the control cycle around it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+OBSERVER_RAD_S = 2 * np.pi * 20  # bandwidth with which an error of the joint sensors reaches the velocity loop
+
+
+class Drives:
+    """Turns references into torques as the cascaded loops of a robot's drives do.
+
+    In each control cycle the position loop asks every motor for the torque
+
+        K (reference - measured position) + D (reference rate - rate error) + gravity torque,
+
+    and from it the drive subtracts ``D`` times the joint's rate by itself, much faster than the control cycle: the bodies of
+    :meth:`holdfast.Body.model` have this damping inside MuJoCo, whose integrator is implicit in it. With any K and D above 0
+    that loop is passive, so joints that share an axis, and together are much lighter than one alone, stay stable.
+
+    The rate error is the derivative of the joint sensors' error (noise, quantisation, a sensor fault), filtered at 20 Hz. So
+    the noise of the sensors reaches the motors, but not as a difference of two samples 1 ms apart.
+
+    Args:
+        stiffness: (..., n) K of each joint, N m/rad and N/m.
+        damping: (..., n) D, N m s/rad and N s/m.
+        effort: (n,) largest torque of each motor, N m and N.
+        period: Control cycle in seconds.
+    """
+
+    def __init__(self, stiffness: Array, damping: Array, *, effort: Array, period: float) -> None:
+        self.stiffness, self.damping, self._effort, self._period = stiffness, damping, effort, period
+        self._share = min(1.0, OBSERVER_RAD_S * period)
+        self.rate_error, self._error = np.zeros_like(stiffness), np.zeros_like(stiffness)
+
+    def sense(self, measured: Array, true: Array) -> None:
+        """Update the rate error from measured and true positions (..., n) of this cycle, rad and m."""
+        error = measured - true
+        self.rate_error = self.rate_error + self._share * ((error - self._error) / self._period - self.rate_error)
+        self._error = error
+
+    def command(self, reference: Array, rates: Array, measured: Array, gravity: Array) -> Array:
+        """Compute what the position loop asks of the motors (..., n), N m and N, before the velocity loops subtract theirs."""
+        return self.stiffness * (reference - measured) + self.damping * (rates - self.rate_error) + gravity
+
+    def torque(self, command: Array, moved: Array) -> Array:
+        """Compute the mean torque (..., n) of a cycle, N m and N, in which the joints moved (..., n), rad and m."""
+        return np.clip(command - self.damping * (moved / self._period), -self._effort, self._effort)
