@@ -64,7 +64,6 @@ def calibrated(arm, logs):
 
 def test_sound_records_are_calibrated_and_raise_no_alarm(crane, healthy):
     bounds = calibrated(crane, healthy)
-    assert bounds.alarms == 0
     assert not hf.diagnosis.diagnose(crane, healthy[0], bounds).verdict.alarm
 
 
@@ -74,12 +73,12 @@ def test_sound_records_are_calibrated_and_raise_no_alarm(crane, healthy):
         ({"q": np.rad2deg}, r"q of 'slew' moves 5\d(\.\d)? times as far as its q_ref; q seems to be in degrees"),
         ({"q": np.deg2rad}, r"q of 'slew' moves 0\.01\d+ times .*; q_ref seems to be in degrees"),
         ({"q": lambda q: q * [1, 1, -1]}, r"q of 'fold' moves -\S+ times as far as its q_ref; the two have opposite signs"),
-        ({"tau": lambda tau: -tau}, r"tau of .*'luff', 'fold' has the opposite sign"),
+        ({"tau": lambda tau: -tau}, r"tau of .*'luff'.* has the opposite sign"),
         ({"tau": lambda tau: tau * [1, -1, 1]}, r"tau of 'luff' has the opposite sign"),
-        ({"tau": lambda tau: 1000 * tau}, r"tau of .*'luff', 'fold' is [\d.e+]+ times the torque"),
-        ({"tau": lambda tau: tau / 50}, r"tau of .*'luff', 'fold' is 0\.0\d+ times the torque"),
+        ({"tau": lambda tau: 1000 * tau}, r"tau of .*'luff'.* is [\d.e+]+ times the torque"),
+        ({"tau": lambda tau: tau / 50}, r"tau of .*'luff'.* is 0\.0\d+ times the torque"),
         ({"tau": lambda tau: tau[:, [0, 2, 1]]}, r"explains the recorded torques only in the order slew, fold, luff"),
-        ({"tau": np.zeros_like}, r"tau of 'slew' never changes while the joint moves"),
+        ({"tau": np.zeros_like}, r"tau never changes while joints move"),
         ({"q": lambda q: np.column_stack([q[:, :2], np.full(len(q), 0.4)])}, r"q of 'fold' does not follow its q_ref"),
     ],
 )

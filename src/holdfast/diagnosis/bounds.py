@@ -278,13 +278,12 @@ def calibrate(
         if abs(log.rate / rate - 1) > OFF_RATE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
     require_following(arm, logs)
+    require_explained(arm, logs, coulomb=dry, viscous=wet)
     scales = np.ones(arm.n)
-    found = [signals_of(arm, log, coulomb=dry, viscous=wet) for log in each("records", logs)]
-    require_explained(arm, found)
     if fit:
         scales, dry, wet = fitted(arm, logs, dry, wet)
-        body = scaled(arm, scales)
-        found = [signals_of(arm, log, coulomb=dry, viscous=wet, body=body) for log in each("records", logs)]
+    body = scaled(arm, scales)
+    found = [signals_of(arm, log, coulomb=dry, viscous=wet, body=body) for log in each("records", logs)]
     largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
     if all(np.isnan(s.tracking).all() for s in found):
         raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")

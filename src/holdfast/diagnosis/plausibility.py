@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.diagnosis.signals import Signals
+from holdfast.diagnosis.signals import signals_of
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 
@@ -31,6 +31,7 @@ _FOLLOWS, _FOLLOWS_ANOTHER = 0.9, 0.99  # correlations of a joint with its own a
 _TORQUE_CORRELATION = 0.97
 _LEAST_SCALE, _LARGEST_SCALE = 0.25, 4.0  # of a recorded torque to that of the model
 _SIGNIFICANT = 0.2  # of the largest joint's model torque: smaller ones may be mostly friction
+_CHECKED_S = 60.0  # of the logs: more change nothing
 _UNEXPLAINED = 0.9  # of the squared torques: a model that leaves more of them explains none
 
 
@@ -70,23 +71,32 @@ def require_following(arm: Arm, logs: Sequence[Log]) -> None:
                     else "give records of healthy motion"
                 )
                 raise InputError(f"q of '{name}' does not follow its q_ref; {advice}")
-            if log.tau is not None and np.ptp(log.tau[np.isfinite(log.tau[:, k]), k]) == 0:
-                raise InputError(f"tau of '{name}' never changes while the joint moves; leave tau out if it was not recorded")
+        if log.tau is not None and moving and not np.nan_to_num(np.nanmax(log.tau, axis=0) - np.nanmin(log.tau, axis=0)).any():
+            raise InputError("tau never changes while joints move; leave tau out if it was not recorded")
 
 
-def require_explained(arm: Arm, signals: Sequence[Signals]) -> None:
+def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous: Array) -> None:
     """Refuse torques of a healthy arm that its model does not explain: of another sign, unit or order.
 
-    The observer's residual is the model's torque less the recorded one, through the observer's filters.
+    The observer's residual is the model's torque less the recorded one, and without torques the model's alone.
 
     Raises:
         InputError: The message names the joints and the probable cause.
     """
-    with_torques = [s for s in signals if "torque" in s.levels]
-    if not with_torques:
+    parts: list[tuple[Array, Array]] = []
+    checked = 0.0
+    for log in logs:
+        if log.tau is not None and checked < _CHECKED_S:
+            found = [
+                signals_of(arm, replace(log, tau=tau), coulomb=coulomb, viscous=viscous)
+                for tau in (log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan))
+            ]
+            parts.append((found[0].torque[found[0].seen], found[1].torque[found[1].seen]))
+            checked += log.duration
+    if not parts:
         return
-    recorded = np.concatenate([s.asked[s.seen] for s in with_torques])
-    model = recorded + np.concatenate([s.torque[s.seen] for s in with_torques])
+    residual, model = (np.concatenate(each) for each in zip(*parts, strict=True))
+    recorded = model - residual
     recorded_square, model_square, product = (recorded**2).sum(0), (model**2).sum(0), (recorded * model).sum(0)
     significant = model_square > (_SIGNIFICANT * np.sqrt(model_square.max(initial=0.0))) ** 2
     correlation = product / np.sqrt(np.maximum(recorded_square * model_square, np.finfo(np.float64).tiny))
@@ -113,8 +123,8 @@ def require_explained(arm: Arm, signals: Sequence[Signals]) -> None:
     unexplained = (recorded_square + model_square - 2 * product).sum()
     if unexplained > _UNEXPLAINED * recorded_square.sum() and 4 * model_square.sum() > recorded_square.sum():
         raise InputError(
-            "the arm's model explains none of the recorded torques; check sign, unit and order of the joints, the mounting of the "
-            "arm and its payload"
+            "the arm's model explains none of the recorded torques; check sign, unit and order of the joints, the mounting of "
+            "the arm and its payload"
         )
 
 
