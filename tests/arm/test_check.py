@@ -140,3 +140,12 @@ def test_builtin_arms(name: str) -> None:
         assert [x.subject for x in found] == [f"joint 'j2s6s200_joint_{k}'" for k in (1, 4, 6)]
     elif not name.startswith(("planar", "pa10")):
         assert found == []
+
+
+@pytest.mark.parametrize(("unit", "named"), [(1.0, False), (1e4, True), (1e6, True), (1e9, True)])
+def test_inertias_in_other_units_are_named(unit: float, named: bool) -> None:
+    """Of the Panda's links in kg m^2, kg cm^2, kg mm^2 and g mm^2."""
+    panda = arms.load("panda")
+    links = tuple(replace(x, inertia=x.inertia * unit) for x in panda.links)
+    found = [x.message for x in check(replace(panda, links=links)) if "radius of gyration" in x.message]
+    assert bool(found) is named

@@ -201,7 +201,11 @@ def ties(tmp_path, inside: str, more: str):
         (PAIR, "<equality><joint name='e' joint1='j' joint2='k'/></equality>", "equality 'e' ties joint 'j', 'k' of the chain"),
         (PAIR, "<equality><connect body1='b' anchor='0 0 0'/></equality>", "equality '1' ties the bodies 'b', 'world'.*loop"),
         (PAIR, "<equality><weld name='w' body1='a' body2='b'/></equality>", "equality 'w' ties the bodies 'a', 'b'"),
-        (PAIR, "<tendon><fixed name='t'><joint joint='k' coef='1'/></fixed></tendon>", "tendon 't' ties joint 'k'"),
+        (
+            PAIR,
+            "<tendon><fixed name='t'><joint joint='j' coef='1'/><joint joint='k' coef='1'/></fixed></tendon>",
+            "tendon 't' ties joint 'j', 'k'",
+        ),
         (
             PAIR.replace("<body name='b'", "<site name='s'/><body name='b'").replace(
                 "</body></body>", "<site name='e'/></body></body>"
@@ -214,6 +218,11 @@ def ties(tmp_path, inside: str, more: str):
 def test_loops_and_tendons_over_the_chain_are_refused(tmp_path, inside, more, sentence):
     with pytest.raises(hf.ArmError, match=sentence):
         hf.Arm.from_mjcf(ties(tmp_path, inside, more), tip="b")
+
+
+def test_a_tendon_over_one_joint_carries_its_motor_and_ties_nothing(tmp_path):
+    more = "<tendon><fixed name='t'><joint joint='k' coef='0.8'/></fixed></tendon><actuator><motor tendon='t'/></actuator>"
+    assert hf.Arm.from_mjcf(ties(tmp_path, PAIR, more), tip="b").joint_names == ("j", "k")
 
 
 @pytest.mark.parametrize(

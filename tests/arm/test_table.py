@@ -230,3 +230,16 @@ def test_unreadable_files(tmp_path: Path) -> None:
     (tmp_path / "arm.yaml").write_bytes(b"\xff\xfe\xfa")
     with pytest.raises(ArmError, match="this is not valid YAML"):
         table.load(tmp_path / "arm.yaml")
+
+
+def test_angles_of_many_turns_are_pointed_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    printed: list[str] = []
+    monkeypatch.setattr(table, "aside", printed.append)
+    file = tmp_path / "hoist.yaml"
+    rows = "rows:\n  - {a: 0, alpha: -90, d: 0.36}\n  - {a: 0.4, alpha: 0, theta: 3.2}\n"
+    file.write_text(rows, encoding="utf-8")
+    table.load(file)
+    assert printed == ["hoist.yaml: alpha of row 1 is -90 rad, 14.3 turns; if it is in degrees, add 'angles: deg'"]
+    file.write_text(f"angles: deg\n{rows}", encoding="utf-8")
+    table.load(file)
+    assert len(printed) == 1

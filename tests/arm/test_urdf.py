@@ -445,7 +445,7 @@ REFUSED = [
         AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='j'/>"),
         {"tip": "b"},
         "joint 'k' mimics 'j', which moves on the chain, so it cannot be held still; "
-        "choose another tip, or name it in hold to freeze it all the same",
+        "choose another tip, or freeze it all the same: --hold k=0",
     ),
     (
         AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='x'/>"),
@@ -592,3 +592,56 @@ def test_a_joint_that_mimics_a_fixed_one_stands_at_its_offset(tmp_path: Path) ->
     np.testing.assert_allclose(arm.forward_kinematics([0.0])[:3, 3], [0, 0.5, 0])
     held = Arm.from_urdf(write(tmp_path, *parts, joint("j", "c", "d")), hold={"m": 2.0})
     np.testing.assert_allclose(held.forward_kinematics([0.0])[:3, 3], [0, 2, 0])
+
+
+SIDE = """<robot name="side"><link name="trunk"/>
+<joint name="bracket" type="fixed"><parent link="trunk"/><child link="s0"/><origin xyz="0 0.2 0.6" rpy="{rpy}"/></joint>
+<link name="s0"/>{links}</robot>"""
+
+
+def side_arm(folder: Path, rpy: str) -> Path:
+    """A file whose arm hangs on a turned bracket."""
+    links = ""
+    for k, axis in enumerate(("0 0 1", "0 1 0", "1 0 0"), start=1):
+        links += (
+            f'<link name="s{k}"><inertial><origin xyz="0.01 0 0.08"/><mass value="{2 - 0.2 * k}"/>'
+            '<inertia ixx="0.02" iyy="0.03" izz="0.015" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+            f'<joint name="j{k}" type="revolute"><parent link="s{k - 1}"/><child link="s{k}"/><origin xyz="0.05 0 0.2"/>'
+            f'<axis xyz="{axis}"/><limit lower="-2" upper="2" velocity="2" effort="50"/></joint>'
+        )
+    file = folder / "side.urdf"
+    file.write_text(SIDE.format(rpy=rpy, links=links), encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize("rpy", ["0 0 0", "1.5707963267948966 0 0", "0.3 -1.1 2.5"])
+def test_gravity_stays_that_of_the_root_whatever_the_base(tmp_path: Path, rng: np.random.Generator, rpy: str) -> None:
+    """Pinocchio computes the gravity torques of the whole file."""
+    pinocchio = pytest.importorskip("pinocchio")
+    file = side_arm(tmp_path, rpy)
+    model = pinocchio.buildModelFromUrdf(str(file))
+    q = rng.uniform(-2, 2, 3)
+    expected = pinocchio.computeGeneralizedGravity(model, model.createData(), q)
+    for base in (None, "s0"):
+        assert Arm.from_urdf(file, base=base).gravity_torque(q) == pytest.approx(expected, abs=1e-12)
+    given = Arm.from_urdf(file, base="s0", gravity=(0, 0, -1.62))
+    assert given.gravity.tolist() == [0, 0, -1.62]
+
+
+def test_all_rods_beside_the_chain_are_named_at_once_with_what_to_type(tmp_path: Path) -> None:
+    rods = J + "".join(
+        link(name) + joint(f"{name}_pin", "b", name, "continuous", "<mimic joint='j' multiplier='-0.4'/>") for name in "rs"
+    )
+    file = write(tmp_path, AB + rods)
+    with pytest.raises(
+        ArmError, match=r"joint 'r_pin' mimics 'j', joint 's_pin' mimics 'j', .*: --hold r_pin=0 --hold s_pin=0 "
+    ):
+        Arm.from_urdf(file, tip="b")
+    assert Arm.from_urdf(file, tip="b", hold={"r_pin": 0.0, "s_pin": 0.0}).n == 1
+
+
+def test_a_floating_base_names_the_link_to_mount_the_arm_on(tmp_path: Path) -> None:
+    file = write(tmp_path, AB + link("map") + joint("afloat", "map", "a", "floating") + J)
+    with pytest.raises(ArmError, match=r"joint 'afloat' on the chain is floating; .*: --base a$"):
+        Arm.from_urdf(file)
+    assert Arm.from_urdf(file, base="a").n == 1

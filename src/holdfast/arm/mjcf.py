@@ -194,7 +194,7 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
                 carrier = bodies[int(model.site_bodyid[k])]
                 links[tip] = None
                 joints[f"{tip} (fixed)"] = _fixed(tip, carrier, pose_of(model.site_pos[k], model.site_quat[k]))
-    tied = frozenset(joint_names[j] for _, _, those, _ in _ties(mujoco, model) for j in those)
+    tied = frozenset(joint_names[j] for _, _, those, _ in _ties(mujoco, model) if len(those) > 1 for j in those)
     return Tree(label, links, joints, limits_required=False, tied=tied)
 
 
@@ -296,6 +296,8 @@ def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str])
         return tree.above[link].name if link in tree.above else ""
 
     for kind, name, tied_joints, tied_bodies in _ties(mujoco, model):
+        if kind == "tendon" and len(tied_joints) == 1 and not tied_bodies:
+            continue  # it carries a motor or a spring of this joint and ties it to nothing
         caught = [joints[j] for j in tied_joints if joints[j] in on_chain]
         if caught:
             raise ArmError(

@@ -12,6 +12,7 @@ from holdfast.errors import ArmError
 
 LARGEST_EFFORT = 20_000.0  # N m or N; beyond any arm's joint, so a placeholder
 WIDEST_RANGE = 4 * np.pi  # rad; two turns, beyond what cables allow
+_LARGEST_RADIUS_M = 3.0  # of gyration: larger ones are in other units where the arm itself is shorter
 LONGEST = 100.0  # m, end to end; beyond any arm, so a file in mm
 ROUNDING = 1e-9  # relative to the largest moment
 
@@ -44,8 +45,25 @@ def check(arm: Machine) -> list[Finding]:
     for joint, link in zip(arm.joints, arm.links, strict=True):
         findings += _joint(joint)
         findings += _link(link, joint)
+    findings += _implausible_inertias(arm)
     if arm.payload is not None:
         findings += _body(arm.payload, "payload")
+    return findings
+
+
+def _implausible_inertias(arm: Machine) -> list[Finding]:
+    """Return a warning for each link whose mass would lie farther from its centre than the arm is long."""
+    findings = []
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        if link is None or not link.mass > 0:
+            continue
+        radius = float(np.sqrt(max(np.linalg.eigvalsh(link.inertia)[-1], 0.0) / link.mass))
+        if arm.end_to_end > 0 and radius > max(arm.end_to_end, _LARGEST_RADIUS_M):
+            message = (
+                f"its inertia has a radius of gyration of {radius:.3g} m, and the whole arm is {arm.end_to_end:.3g} m long; "
+                "moments are in kg m^2: are they in kg mm^2 or g mm^2?"
+            )
+            findings.append(Finding("warning", _subject(link, joint), message))
     return findings
 
 

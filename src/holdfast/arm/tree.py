@@ -11,7 +11,7 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.machine import Chain, Joint, JointType, Link, Machine
+from holdfast.arm.machine import GRAVITY, Chain, Joint, JointType, Link, Machine
 from holdfast.arm.poses import motion
 from holdfast.errors import ArmError
 
@@ -254,7 +254,7 @@ def chain(
     tip: str | None,
     hold: Mapping[str, float],
     name: str,
-    gravity: Sequence[float],
+    gravity: Sequence[float] | None,
     source: str,
     mount: Array | None = None,
 ) -> Machine:
@@ -266,7 +266,7 @@ def chain(
         tip: May be left out if there is only one end.
         hold: Value, rad or m, at which joints are held, on the chain or beside it; those are then no joints of the arm.
         name: Name of the arm.
-        gravity: (3,) acceleration in the world, m/s^2.
+        gravity: (3,) acceleration in the world, m/s^2; None: that of the earth, down along z of the file's root.
         source: Where the tree comes from.
         mount: (4, 4) pose of the base link in the world; the identity if not given.
 
@@ -285,7 +285,10 @@ def chain(
         )
     for joint in moving:
         if joint.type not in MOVING:
-            raise ArmError(f"joint '{joint.name}' on the chain is {joint.type}; a serial arm needs {', '.join(MOVING)}")
+            raise ArmError(
+                f"joint '{joint.name}' on the chain is {joint.type}; a serial arm needs {', '.join(MOVING)}"
+                f"{_base_behind(moving)}"
+            )
         if joint.mimic:
             raise ArmError(
                 f"joint '{joint.name}' on the chain mimics '{joint.mimic[0]}', so it is not a degree of freedom; "
@@ -296,6 +299,7 @@ def chain(
             remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
             raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
     still = Held(tree, {joint.name for joint in moving}, hold)
+    _refuse_followers(tree, base, still)
 
     joints: list[Joint] = []
     links: list[Link | None] = []
@@ -314,10 +318,49 @@ def chain(
         tuple(links),
         base=np.eye(4) if mount is None else mount,
         tool=pending,
-        gravity=np.array(gravity, dtype=np.float64),
+        gravity=_gravity_at(tree, base, still) if gravity is None else np.array(gravity, dtype=np.float64),
         source=source,
         chain=Chain(base, tip, tuple(sorted((name, float(value)) for name, value in hold.items()))),
     )
+
+
+def _gravity_at(tree: Tree, base: str, still: Held) -> Array:
+    """Return the earth's gravity (3,) in the axes of the base link, where z of the file's root points up."""
+    rotation = np.eye(3)
+    for joint in tree.path(tree.root, base):
+        rotation = rotation @ joint.at(still.value(joint))[:3, :3]
+    return np.asarray(rotation.T @ np.array(GRAVITY))
+
+
+def _base_behind(moving: Sequence[TreeJoint]) -> str:
+    """Return advice for a chain with joints that no arm can have: the link behind the last of them, if joints follow."""
+    last = max(k for k, joint in enumerate(moving) if joint.type not in MOVING)
+    return f"; mount the arm on the link behind it: --base {moving[last].child}" if last < len(moving) - 1 else ""
+
+
+def _refuse_followers(tree: Tree, base: str, still: Held) -> None:
+    """Refuse joints next to the chain that mimic joints of the chain, all of them in one sentence."""
+    followers: dict[str, str] = {}
+    for joint in _hanging(tree, base):
+        master, passed = joint, {joint.name}
+        while master.mimic and master.name not in still.hold and master.mimic[0] in tree.joints:
+            if master.mimic[0] in still.on_path:
+                if joint.name not in still.on_path:
+                    followers[joint.name] = master.mimic[0]
+                break
+            if master.mimic[0] in passed:
+                break
+            passed.add(master.mimic[0])
+            master = tree.joints[master.mimic[0]]
+    if followers:
+        each = ", ".join(f"joint '{name}' mimics '{master}'" for name, master in followers.items())
+        options = " ".join(f"--hold {name}=0" for name in followers)
+        verb = "moves" if len(set(followers.values())) == 1 else "move"
+        what = "it" if len(followers) == 1 else "they"
+        raise ArmError(
+            f"{each}, which {verb} on the chain, so {what} cannot be held still; choose another tip, or freeze "
+            f"{'it' if len(followers) == 1 else 'them'} all the same: {options} (hold= in Python)"
+        )
 
 
 def _model_joint(joint: TreeJoint, origin: Array) -> Joint:
@@ -375,11 +418,6 @@ class Held:
             return float(self.hold[joint.name])
         if joint.mimic:
             master, multiplier, offset = joint.mimic
-            if master in self.on_path:
-                raise ArmError(
-                    f"joint '{joint.name}' mimics '{master}', which moves on the chain, so it cannot be held still; "
-                    "choose another tip, or name it in hold to freeze it all the same"
-                )
             if master not in self.tree.joints:
                 raise ArmError(f"joint '{joint.name}' mimics '{master}', which the file does not define")
             return multiplier * self.value(self.tree.joints[master], (*followers, joint.name)) + offset

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm.machine import GRAVITY, Link, Machine
+from holdfast.arm.machine import Link, Machine
 from holdfast.arm.poses import cos_sin
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain
 from holdfast.errors import ArmError
@@ -38,7 +38,7 @@ def load(
     tip: str | None = None,
     hold: Mapping[str, float] | None = None,
     name: str | None = None,
-    gravity: Sequence[float] = GRAVITY,
+    gravity: Sequence[float] | None = None,
     srdf: str | Path | None = None,
     meshes: str | Path | None = None,
 ) -> Machine:
@@ -62,7 +62,8 @@ def load(
             arm. By default all on the chain move, and those beside it are held at 0, or the limit nearest to it. A joint with
             ``<mimic>`` follows its master unless it is named here; one that mimics a held joint is held too.
         name: Name of the arm; the file's robot name if not given.
-        gravity: (3,) acceleration, m/s^2, in the frame of ``base``.
+        gravity: (3,) acceleration, m/s^2, in the frame of ``base``; by default 9.81 m/s^2 down along z of the file's root,
+            whatever ``base`` is.
         srdf: File whose ``<group_state>`` become ``states``, those that name every joint of the arm, and whose
             ``<disable_collisions>`` are pairs of links that its shape leaves unchecked; if not given, the file of the same name
             that ends in ``.srdf``, where there is one.

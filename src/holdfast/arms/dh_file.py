@@ -42,8 +42,10 @@ from holdfast.arm.urdf import rpy_rotation
 from holdfast.arms.dh_rows import DHTable
 from holdfast.errors import ArmError, InputError
 from holdfast.files.yaml import Four, Number, Strict, Three, content, sentence
+from holdfast.notice import aside
 
 Array = NDArray[np.float64]
+_LARGEST_ANGLE = 2 * np.pi  # rad: an angle of more than a turn is probably in degrees
 
 
 @checked
@@ -200,6 +202,13 @@ def built(table: ArmFile, path: Path) -> Arm:
         ArmError: A row, body or pose is wrong.
     """
     unit = np.pi / 180 if table.angles == "deg" else 1.0
+    for number, row in enumerate(table.rows if table.angles == "rad" else (), start=1):
+        for key, angle in (("alpha", row.alpha), ("theta", row.theta)):
+            if abs(angle) > _LARGEST_ANGLE:
+                aside(
+                    f"{path.name}: {key} of row {number} is {angle:g} rad, {abs(angle) / (2 * np.pi):.3g} turns; if it is in "
+                    "degrees, add 'angles: deg'"
+                )
     links = table.links
     return Arm.from_dh(
         [_row(row, unit) for row in table.rows],

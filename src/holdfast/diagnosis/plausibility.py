@@ -30,7 +30,9 @@ _RATIO_CORRELATION = 0.98
 _FOLLOWS, _FOLLOWS_ANOTHER = 0.9, 0.99  # correlations of a joint with its own and with another joint's reference
 _TORQUE_CORRELATION = 0.97
 _LEAST_SCALE, _LARGEST_SCALE = 0.25, 4.0  # of a recorded torque to that of the model
-_SIGNIFICANT = 0.2  # of the largest joint's model torque: smaller ones may be mostly friction
+_LOADED = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
+_CARRYING = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
+_CONFIGURATIONS = 200  # at which gravity torques are computed
 _CHECKED_S = 60.0  # of the logs: more change nothing
 _UNEXPLAINED = 0.9  # of the squared torques: a model that leaves more of them explains none
 
@@ -98,7 +100,8 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
     residual, model = (np.concatenate(each) for each in zip(*parts, strict=True))
     recorded = model - residual
     recorded_square, model_square, product = (recorded**2).sum(0), (model**2).sum(0), (recorded * model).sum(0)
-    significant = model_square > (_SIGNIFICANT * np.sqrt(model_square.max(initial=0.0))) ** 2
+    gravity = _largest_gravity_torques(arm)
+    significant = (model_square > len(model) * (_LOADED * gravity) ** 2) & (gravity > _CARRYING * gravity.max())
     correlation = product / np.sqrt(np.maximum(recorded_square * model_square, np.finfo(np.float64).tiny))
     scale = product / np.maximum(model_square, np.finfo(np.float64).tiny)
     reversed_joints = significant & (correlation < -_TORQUE_CORRELATION)
@@ -108,7 +111,7 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
             "motors' torques on the joints, positive in the direction of the joint"
         )
     order = _best_order(recorded, model)
-    if order is not None:
+    if order is not None and significant.any():
         names = ", ".join(arm.joint_names[j] for j in order)
         raise InputError(
             f"the arm's model explains the recorded torques only in the order {names}; give those of its joints in order"
@@ -120,12 +123,20 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
             f"tau of {_names(arm, unlike)} is {scale[k]:.3g} times the torque that the arm's model needs; give torques of the "
             "joints in N m and N, not currents, motor torques or mN m"
         )
-    unexplained = (recorded_square + model_square - 2 * product).sum()
-    if unexplained > _UNEXPLAINED * recorded_square.sum() and 4 * model_square.sum() > recorded_square.sum():
+    unexplained = (recorded_square + model_square - 2 * product)[significant].sum()
+    if unexplained > _UNEXPLAINED * recorded_square[significant].sum() and significant.any():
         raise InputError(
             "the arm's model explains none of the recorded torques; check sign, unit and order of the joints, the mounting of "
             "the arm and its payload"
         )
+
+
+def _largest_gravity_torques(arm: Arm) -> Array:
+    """Return the largest gravity torque (n,) of each joint at random configurations, N m and N."""
+    free = np.where(arm.prismatic, 1.0, np.pi)
+    low, high = np.where(np.isfinite(arm.lower), arm.lower, -free), np.where(np.isfinite(arm.upper), arm.upper, free)
+    q = np.random.default_rng(0).uniform(low, high, (_CONFIGURATIONS, arm.n))
+    return np.asarray(np.abs(arm.gravity_torque(q)).max(axis=0))
 
 
 def _names(arm: Arm, chosen: NDArray[np.bool_]) -> str:
