@@ -16,6 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.certainty import unknown_shape
 from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
@@ -28,7 +29,7 @@ from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
 from holdfast.recovery.proofs.reach import Tolerance, every_clear, nothing_within, unreachable
 from holdfast.recovery.proofs.separation import separated
-from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
+from holdfast.recovery.question import SAME, Goal, broken_by, doubtful_contact, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Route, find_route
@@ -179,7 +180,8 @@ def recover(
         asked = replace(made, clearance=kept)
         trouble = trouble_of(degraded, start, kept, margin, made.keep)
         if trouble is not None:
-            return replace(asked, ending=trouble[0], reason=trouble[1])
+            known = {"proof_kind": "start"} if trouble.certain else {"unknown": trouble.reason}
+            return replace(asked, ending=trouble.ending, reason=trouble.reason, **known)  # type: ignore[arg-type]
         around = np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])])
         space = Space(limited, free, kept, margin, around, keep=made.keep)
         if time_limit is not None:
@@ -256,6 +258,9 @@ class _Search:
         self._look("following the tool path")
         if not rest.finished:
             self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
+            shape, lost = unknown_shape(self.space.clearance), rest.first_lost
+            if shape and (lost is None or self._bars(path.pose(np.array([lost])), here)):
+                self.made = replace(self.made, unknown=f"{rest.why}; {shape}")
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
         return self._reach(here, path, rest, motions) if motions else rest
@@ -311,6 +316,10 @@ class _Search:
         if all(broken):
             why = broken[0]
             return replace(made, ending=Ending.PROVED_UNREACHABLE, proof=why, proof_kind="rows kept", reason=why)
+        seen = self.space.clearance
+        if aim.q is not None and seen is not None and float(seen.room(aim.q)) < made.margin:
+            why = f"at the goal {doubtful_contact(seen, aim.q, made.margin)}"
+            return replace(made, ending=Ending.NOTHING_FOUND, reason=why, unknown=why)
         if aim.q is not None:
             goals, owner = aim.q[None], np.zeros(1, dtype=np.int64)
         else:
@@ -343,11 +352,13 @@ class _Search:
                 made = replace(made, proof=apart[0], reason=apart[0], proved_within=apart[1], proof_kind="disconnected")
                 return replace(made, ending=Ending.PROVED_DISCONNECTED)
             why, closed_in = "; ".join(reasons), self.space.closed_in
-            return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
+            unknown = f"configurations were found, but no motion to them; {shape}" if (shape := unknown_shape(seen)) else ""
+            ended = replace(made, given_up=None, reason=why, closed_in=closed_in, unknown=unknown)
+            return replace(ended, ending=Ending.NO_ROUTE_FOUND)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
         proofs = [bound or box for bound, (_, box) in zip(bounds, every, strict=True)]
         proof = None if None in proofs else proofs[0]
-        pair = "" if proof else what_bars(self.solver, self.space, aim.poses[0], here, np.random.default_rng(made.seed))
+        pair = "" if proof else self._bars(aim.poses, here)
         found = "no clear configuration" if pair else "no configuration"
         bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
         reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
@@ -357,6 +368,8 @@ class _Search:
                 nothing_within(made.degraded, made.task, pose, self.space, made.tolerance) for pose in aim.poses
             )
             made = replace(made, proof=proof, proof_kind=kind, proved_within=within)
+        elif pair and (shape := unknown_shape(seen)):
+            made = replace(made, unknown=f"the goal is met where {pair} may be too close; {shape}")
         offers = [
             (choice, pose)
             for pose in aim.poses
@@ -375,6 +388,11 @@ class _Search:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
         everything = tuple(c.rows for c in choices)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
+
+    def _bars(self, poses: Array, here: Array) -> str:
+        """The pair that most often is too close where one of the poses (G, 4, 4) is met, or nothing."""
+        rng = np.random.default_rng(self.made.seed)
+        return next(filter(None, (what_bars(self.solver, self.space, pose, here, rng) for pose in poses)), "")
 
     @property
     def _searches(self) -> str:
