@@ -23,7 +23,7 @@ from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.completion import completed
-from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_path, without_rows
+from holdfast.recovery.continuation import RestOfPath, along, continued, refined, rest_of_path, without_rows
 from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
@@ -257,13 +257,25 @@ class _Search:
         rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
         self._look("following the tool path")
         if not rest.finished:
+            rest, motions = self._continued(rest, path, here)
+        if not rest.finished:
             self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
             shape, lost = unknown_shape(self.space.clearance), rest.first_lost
             if shape and (lost is None or self._bars(path.pose(np.array([lost])), here)):
                 self.made = replace(self.made, unknown=f"{rest.why}; {shape}")
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
+        if not motions:
+            return rest
+        reached = self._reach(here, path, rest, motions)
+        if not reached.cut_off or rest.given_up is not None:
+            return reached
+        rest, motions = self._continued(reached, path, here)
         return self._reach(here, path, rest, motions) if motions else rest
+
+    def _continued(self, rest: RestOfPath, path: Path, here: Array) -> tuple[RestOfPath, list[Array]]:
+        """How far the path can be followed from where the arm is."""
+        return continued(rest, self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
 
     def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
         """The first of the motions along the path that can be reached, and is near it all the way."""
