@@ -186,6 +186,9 @@ def without_rows(
             given_up, motion = best
             mask = np.ones(solver.rows.m)
             mask[list(given_up)] = 0.0
+            given_up = tuple(np.flatnonzero(solver.missed(motion, poses).any(axis=0)).tolist())
+            if not given_up:  # a row that is met all the way is not given up
+                return along(made, solver, path, motion), [motion]
             misses = np.abs(solver.errors(motion, poses)).max(axis=0)[list(given_up)]
             names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
             rows = RowsGivenUp(tuple(names), tuple(misses.tolist()), tuple(units))

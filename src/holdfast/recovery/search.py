@@ -394,11 +394,13 @@ class _Search:
             route = self._route(here, choice.q)
             if route is not None:
                 self._add("to the goal", route.q, route.lower_bound, route.straight)
+                if not choice.rows.names:  # every row is met: what the search missed was found beside it
+                    return replace(made, ending=ending, goal_pose=pose, unknown="", reason="; ".join(reasons[:-1]))
                 return self._relaxed(replace(made, goal_pose=pose), aim, choice, choices, reasons)
         nothing = Ending.PROVED_UNREACHABLE if proof else Ending.NOTHING_FOUND
         if choices:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
-        everything = tuple(c.rows for c in choices)
+        everything = tuple(c.rows for c in choices if c.rows.names)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
 
     def _bars(self, poses: Array, here: Array) -> str:
