@@ -150,8 +150,9 @@ def continued(
         return replace(made, cut_off=True), []
     stride = float(np.diff(made.share).max())
     end = continue_path(solver, space, metric, path, first, stride=stride, rng=rng)
-    furthest = float(end.share[-1])
-    made = replace(made, furthest=furthest, begin=end.q[0], found=made.found | (made.share <= furthest), cut_off=False)
+    furthest, graph = float(end.share[-1]), max(made.graph, end.size)
+    made = replace(made, furthest=furthest, begin=end.q[0], graph=graph, cut_off=False)
+    made = replace(made, found=made.found | (made.share <= furthest))
     if furthest < 1:
         return made, []
     made = replace(made, share=end.share, found=np.ones(len(end.share), dtype=bool))

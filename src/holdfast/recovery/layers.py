@@ -108,10 +108,12 @@ class Continuation:
     Attributes:
         share: (S,) places on the path, 0 to 1, increasing; the last one is where every motion found ends.
         q: (S, n) the shortest motion to there, rad and m.
+        size: Configurations of all places together, where self-motion was used; else 0.
     """
 
     share: Array
     q: Array
+    size: int
 
 
 def continue_path(
@@ -158,7 +160,7 @@ def continue_path(
     for source in came[:0:-1]:
         q.append(int(source[q[-1]]))
     motion = np.stack([layer[k] for layer, k in zip(layers, reversed(q), strict=True)])
-    return Continuation(np.array(share), motion)
+    return Continuation(np.array(share), motion, sum(map(len, layers)) if copies else 0)
 
 
 def _next_layer(
