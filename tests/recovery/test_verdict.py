@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
@@ -79,6 +80,44 @@ def test_a_motion_into_an_object_is_refused(moved, three):
     found = verify(moved.degraded, HOME, moved.q, rows=rows, clearance=shape)
     assert not found.ok
     assert "ball" in str(found)
+
+
+def test_a_motion_that_touches_only_between_coarse_samples_is_refused(three):
+    """A thin link and a small ball, which is passed within 8 mrad of joint 1."""
+    q = np.array([[0.0, 0.6, 0.9], [1.0, 0.6, 0.9]])
+    tip = three.forward_kinematics([0.5123, 0.6, 0.9])[:3, 3]
+    thin = hf.Clearance(
+        three, hf.Capsules.along(three, 0.005), hf.Cell([hf.cell.Sphere("ball", 0.004, pose=tip)]), itself=False
+    )
+    coarse = q[0] + np.linspace(0, 1, 51)[:, None] * (q[1] - q[0])
+    assert (thin.room(coarse) > 0).all()
+    rows = row_solver(three, as_task(three, "planar")).rows
+    bad = hf.Degraded(three, locked={"joint2": 0.6, "joint3": 0.9})
+    assert "joint3 & ball" in str(verify(bad, q[0], q, rows=rows, clearance=thin))
+    away = thin.with_cell(hf.Cell([hf.cell.Sphere("ball", 0.004, pose=1.02 * tip)]))
+    assert verify(bad, q[0], q, rows=rows, clearance=away).ok
+
+
+@pytest.mark.parametrize(("turn", "lift", "ok"), [(0.3, 0.0, True), (0.8, 0.0, False), (0.0, 0.5e-3, True), (0.0, 2e-3, False)])
+def test_between_waypoints_a_tool_path_is_kept_to_half_a_degree_and_a_millimetre(turn, lift, ok):
+    """The path turns and lifts away from the motion between waypoints, and meets it at each of them."""
+    arm = hf.arms.load("panda")
+    at = np.array(hf.arms.about("panda").home)
+    q, places = at + np.linspace(0, 1, 6)[:, None] * [0.3, 0.1, 0, 0, 0, 0.2, 0], np.linspace(0, 1, 6)
+
+    class Wavy:
+        def pose(self, share):
+            made = arm.forward_kinematics(at + np.outer(share, q[-1] - at))
+            wave = np.sin(5 * np.pi * np.asarray(share)) ** 2
+            spin = Rotation.from_rotvec(np.deg2rad(turn) * wave[:, None] * [0, 0, 1]).as_matrix()
+            made[:, :3, :3] = spin @ made[:, :3, :3]
+            made[:, 2, 3] += lift * wave
+            return made
+
+    rows = row_solver(arm, as_task(arm, "pose")).rows
+    found = verify(hf.Degraded(arm, speeds={0: 0.5}), at, q, rows=rows, along=(Wavy(), places, slice(0, 6)))
+    assert found.ok == ok, found
+    assert ok or "is off the tool path by" in str(found)
 
 
 def test_a_motion_that_other_code_refuses_is_no_answer(three, monkeypatch):
