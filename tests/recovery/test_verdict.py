@@ -83,13 +83,13 @@ def test_a_motion_into_an_object_is_refused(moved, three):
 
 
 def test_a_motion_that_touches_only_between_coarse_samples_is_refused(three):
-    """A thin link and a small ball, which is passed within 8 mrad of joint 1."""
+    """A thin link and a small ball, which is passed within a few mrad of joint 1."""
     q = np.array([[0.0, 0.6, 0.9], [1.0, 0.6, 0.9]])
-    tip = three.forward_kinematics([0.5123, 0.6, 0.9])[:3, 3]
+    tip = three.forward_kinematics([0.5, 0.6, 0.9])[:3, 3]
     thin = hf.Clearance(
         three, hf.Capsules.along(three, 0.005), hf.Cell([hf.cell.Sphere("ball", 0.004, pose=tip)]), itself=False
     )
-    coarse = q[0] + np.linspace(0, 1, 51)[:, None] * (q[1] - q[0])
+    coarse = q[0] + np.linspace(0, 1, 26)[:, None] * (q[1] - q[0])
     assert (thin.room(coarse) > 0).all()
     rows = row_solver(three, as_task(three, "planar")).rows
     bad = hf.Degraded(three, locked={"joint2": 0.6, "joint3": 0.9})
