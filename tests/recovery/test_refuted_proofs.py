@@ -135,7 +135,7 @@ def test_rows_kept_no_goal_at_which_they_are_kept_is_called_broken(rng):
 
 def test_disconnected_no_flood_over_a_grid_joins_what_is_proved_apart(three, rng, monkeypatch):
     """Joints 1 and 3 move among four balls; cells of the grid are free where a hand calculation says so."""
-    monkeypatch.setattr(flood, "_MOST", {1: 2_000, 2: 2_500, 3: 4_000})
+    monkeypatch.setattr(flood, "_MOST", {1: 700, 2: 700, 3: 700})
     count, proved = 80, 0
     axes = [LOW[k] + (np.arange(count) + 0.5) * (HIGH[k] - LOW[k]) / count for k in (0, 2)]
     grid = np.zeros((count, count, 3))
