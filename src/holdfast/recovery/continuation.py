@@ -37,7 +37,7 @@ class RestOfPath:
 
     Attributes:
         furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row, to 0.001; it begins in a
-            configuration of the first pose that a motion was found to from where the arm is.
+            configuration of the first pose to which a motion of the arm was found.
         begin: (n,) that configuration, rad and m; None if none was found.
         share: (S,) samples of the path, 0 to 1.
         found: (S,) True where a configuration of that pose was found at all, each sample on its own.
@@ -130,7 +130,7 @@ def continued(
     starts: int,
     rng: np.random.Generator,
 ) -> tuple[RestOfPath, list[Array]]:
-    """A path that was not finished, with how far it can be followed from where the arm is, and the motion if that is all of it.
+    """A path that was not finished, with the furthest place to which the arm follows it, and the motion if that is its end.
 
     Followed are all configurations of the first pose that were found and to which a motion leads.
     """

@@ -100,12 +100,17 @@ def kept_too(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Arra
     return q
 
 
-def what_bars(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> str:
-    """The pair that most often is too close where every row of a pose (4, 4) is met, or nothing if none is met or clear."""
-    begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
-    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
-    q = solver.run(begin, poses, kept, space.free)
-    return space.nearest(q[solver.meets(q, poses, kept, space.free)])
+def what_bars(solver: RowSolver, space: Space, poses: Array, at: Array, seed: int) -> str:
+    """The pair that most often is too close where one of poses (G, 4, 4) is met; empty if none is met or each is clear."""
+    rng = np.random.default_rng(seed)
+    for pose in poses:
+        begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
+        same, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
+        q = solver.run(begin, same, kept, space.free)
+        pair = space.nearest(q[solver.meets(q, same, kept, space.free)])
+        if pair:
+            return pair
+    return ""
 
 
 def _good(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> NDArray[np.bool_]:

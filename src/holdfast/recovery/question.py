@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -46,6 +46,32 @@ class Goal:
     poses: Array
     q: Array | None = None
     lost: RowsGivenUp | None = None
+
+
+def check_numbers(
+    counts: Mapping[str, tuple[int, int]],
+    *,
+    time_limit: float | None,
+    tolerance: tuple[float, float] | None,
+    period: float,
+    margin: float,
+) -> None:
+    """Check the numbers of a recovery; counts come with the least that each may be.
+
+    Raises:
+        InputError: One of them is out of bounds.
+    """
+    for name, (number, least) in counts.items():
+        if number < least:
+            raise InputError(f"{name} is {number}; it must be {least} or more")
+    if time_limit is not None and not time_limit > 0:
+        raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
+    if tolerance is not None and (len(tolerance) != 2 or not all(0 <= x < np.inf for x in tolerance)):
+        raise InputError(f"tolerance is {tolerance}; give two finite numbers of 0 or more, in m and rad")
+    if not (np.isfinite(period) and period > 0):
+        raise InputError(f"period is {period}; it must be above 0, in seconds")
+    if not np.isfinite(margin):
+        raise InputError(f"margin is {margin}; it must be a finite number of metres")
 
 
 class Trouble(NamedTuple):

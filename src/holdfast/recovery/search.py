@@ -29,7 +29,7 @@ from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
 from holdfast.recovery.proofs.reach import Tolerance, every_clear, nothing_within, unreachable
 from holdfast.recovery.proofs.separation import separated
-from holdfast.recovery.question import SAME, Goal, broken_by, doubtful_contact, goal_of, task_of, trouble_of
+from holdfast.recovery.question import SAME, Goal, broken_by, check_numbers, doubtful_contact, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Route, find_route
@@ -127,17 +127,8 @@ def recover(
     q, single = as_configurations(arm, at)
     if not single:
         raise InputError(f"at has shape {np.shape(at)}; give one configuration of {arm.n} numbers")
-    for name, number, least in (("samples", samples, 0), ("starts", starts, 1), ("tries", tries, 0), ("seed", seed, 0)):
-        if number < least:
-            raise InputError(f"{name} is {number}; it must be {least} or more")
-    if time_limit is not None and not time_limit > 0:
-        raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
-    if tolerance is not None and (len(tolerance) != 2 or not all(0 <= x < np.inf for x in tolerance)):
-        raise InputError(f"tolerance is {tolerance}; give two finite numbers of 0 or more, in m and rad")
-    if not (np.isfinite(period) and period > 0):
-        raise InputError(f"period is {period}; it must be above 0, in seconds")
-    if not np.isfinite(margin):
-        raise InputError(f"margin is {margin}; it must be a finite number of metres")
+    counts = {"samples": (samples, 0), "starts": (starts, 1), "tries": (tries, 0), "seed": (seed, 0)}
+    check_numbers(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin)
     start = q[0]
     degraded = degraded_at(arm, locked, start)
     if degraded is None:
@@ -211,10 +202,8 @@ class _Search:
         rng: np.random.Generator,
         pace: tuple[Array, float] | None,
     ) -> None:
-        self._pace, self._few = (
-            pace,
-            max(1, tries // 4),
-        )  # of 385 searches that found a route in one of six, all did in the first
+        self._pace = pace
+        self._few = max(1, tries // 4)  # of 385 searches that found a route in one of six, all did in the first
         self.made, self.solver, self.space, self.metric, self.tries, self.rng = made, solver, space, metric, tries, rng
         self._q: list[Array] = []
         self._legs: list[Leg] = []
@@ -261,7 +250,9 @@ class _Search:
         if not rest.finished:
             self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
             shape, lost = unknown_shape(self.space.clearance), rest.first_lost
-            if shape and (lost is None or self._bars(path.pose(np.array([lost])), here)):
+            if shape and (
+                lost is None or what_bars(self.solver, self.space, path.pose(np.array([lost])), here, self.made.seed)
+            ):
                 self.made = replace(self.made, unknown=f"{rest.why}; {shape}")
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
@@ -274,7 +265,7 @@ class _Search:
         return self._reach(here, path, rest, motions) if motions else rest
 
     def _continued(self, rest: RestOfPath, path: Path, here: Array) -> tuple[RestOfPath, list[Array]]:
-        """How far the path can be followed from where the arm is."""
+        """The same with the furthest place to which the arm can follow the path, and the motion if that is its end."""
         return continued(rest, self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
 
     def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
@@ -370,7 +361,7 @@ class _Search:
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
         proofs = [bound or box for bound, (_, box) in zip(bounds, every, strict=True)]
         proof = None if None in proofs else proofs[0]
-        pair = "" if proof else self._bars(aim.poses, here)
+        pair = "" if proof else what_bars(self.solver, self.space, aim.poses, here, made.seed)
         found = "no clear configuration" if pair else "no configuration"
         bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
         reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
@@ -402,11 +393,6 @@ class _Search:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
         everything = tuple(c.rows for c in choices if c.rows.names)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
-
-    def _bars(self, poses: Array, here: Array) -> str:
-        """The pair that most often is too close where one of the poses (G, 4, 4) is met, or nothing."""
-        rng = np.random.default_rng(self.made.seed)
-        return next(filter(None, (what_bars(self.solver, self.space, pose, here, rng) for pose in poses)), "")
 
     @property
     def _searches(self) -> str:

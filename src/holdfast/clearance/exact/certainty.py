@@ -31,8 +31,8 @@ def certain_contacts(clearance: Clearance, q: Array, margin: float = 0.0) -> lis
     if clearance.capsules.shape is None and exactness.parts_known:
         gaps = clearance.alone.by_pair(q)
         for k, pair in enumerate(clearance.pairs):
-            for row in np.flatnonzero(gaps[:, k] < margin - _ROUNDING) if max(pair) < own else ():
-                names[row] = clearance.pair_names[k]
+            for touching in np.flatnonzero(gaps[:, k] < margin - _ROUNDING) if max(pair) < own else ():
+                names[touching] = clearance.pair_names[k]
     inner, solids = exactness.inner
     if solids and len(inner.balls.link) and clearance.cell is not None:
         allowed = margin + np.array([clearance.cell.margin_of(solid) for solid in solids])
