@@ -24,7 +24,7 @@ from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.completion import completed
 from holdfast.recovery.continuation import RestOfPath, along, continued, refined, rest_of_path, without_rows
-from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
+from holdfast.recovery.goals import configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
 from holdfast.recovery.proofs.reach import Tolerance, every_clear, nothing_within, unreachable
@@ -40,7 +40,6 @@ from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
 from holdfast.regions.region import Region
 
 if TYPE_CHECKING:
-    from holdfast.enclosure import Configurations
     from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
@@ -250,9 +249,8 @@ class _Search:
         if not rest.finished:
             self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
             shape, lost = unknown_shape(self.space.clearance), rest.first_lost
-            if shape and (
-                lost is None or what_bars(self.solver, self.space, path.pose(np.array([lost])), here, self.made.seed)
-            ):
+            first = path.pose(rest.share[:1] if lost is None else np.array([lost]))
+            if shape and (lost is None or what_bars(self.solver, self.space, first, here, self.made.seed)):
                 self.made = replace(self.made, unknown=f"{rest.why}; {shape}")
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
@@ -293,9 +291,6 @@ class _Search:
         self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
-    def _every(self, pose: Array) -> tuple[Configurations | None, str | None]:
-        return every_clear(self.made.degraded, self.made.task, pose, self.space, self.made.clearance)
-
     def _route(self, here: Array, goals: Array, again: int = 0) -> Route | None:
         tries, vain = (again, None) if again else (self.tries, self._few)
         return find_route(self.space, self.metric, here, goals, tries, self.rng, vain=vain)
@@ -330,7 +325,8 @@ class _Search:
                 configurations_of(self.solver, self.space, self.metric, pose, here, made.starts, self.rng) for pose in aim.poses
             ]
             goals, owner = np.concatenate(each), np.repeat(np.arange(len(each)), [len(x) for x in each])
-        every = [] if len(goals) else [self._every(pose) for pose in aim.poses]
+        asked = made.degraded, made.task
+        every = [] if len(goals) else [every_clear(*asked, pose, self.space, made.clearance) for pose in aim.poses]
         for k, (configurations, _) in enumerate(every):
             some = np.zeros((0, made.arm.n)) if configurations is None else configurations.q
             some = some[self.space.clear(some)] if len(some) else some
@@ -350,7 +346,7 @@ class _Search:
                 return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
             self._look("looking for a route to the goal")
             found = f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
-            reasons.append(found + self._in_the_way(here, goals[0]))
+            reasons.append(found + self.space.in_the_way(here, goals[0]))
             if apart is not None and aim.lost is None:
                 made = replace(made, proof=apart[0], reason=apart[0], proved_within=apart[1], proof_kind="disconnected")
                 return replace(made, ending=Ending.PROVED_DISCONNECTED)
@@ -387,7 +383,9 @@ class _Search:
                 self._add("to the goal", route.q, route.lower_bound, route.straight)
                 if not choice.rows.names:  # every row is met: what the search missed was found beside it
                     return replace(made, ending=ending, goal_pose=pose, unknown="", reason="; ".join(reasons[:-1]))
-                return self._relaxed(replace(made, goal_pose=pose), aim, choice, choices, reasons)
+                rows = choice.rows if aim.lost is None else aim.lost + choice.rows
+                sets, ending, why = tuple(c.rows for c in choices), Ending.HOME_WITH_ROWS_GIVEN_UP, "; ".join(reasons)
+                return replace(made, goal_pose=pose, ending=ending, given_up=rows, choices=sets, reason=why)
         nothing = Ending.PROVED_UNREACHABLE if proof else Ending.NOTHING_FOUND
         if choices:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
@@ -400,18 +398,3 @@ class _Search:
         if self.space.spent or self.space.closed_in:
             return "the searches"
         return f"{self.tries} search{'es' * (self.tries != 1)}"
-
-    def _in_the_way(self, here: Array, goal: Array) -> str:
-        """What a straight line to a goal meets, if it meets anything."""
-        pair = self.space.nearest(here + np.linspace(0, 1, 201)[:, None] * self.space.difference(goal, here))
-        return f"; in the way of the straight line: {pair}" if pair else ""
-
-    def _relaxed(self, made: Recovery, aim: Goal, choice: Relaxed, choices: list[Relaxed], reasons: list[str]) -> Recovery:
-        rows = choice.rows if aim.lost is None else aim.lost + choice.rows
-        return replace(
-            made,
-            ending=Ending.HOME_WITH_ROWS_GIVEN_UP,
-            given_up=rows,
-            choices=tuple(c.rows for c in choices),
-            reason="; ".join(reasons),
-        )
