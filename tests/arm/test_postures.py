@@ -11,6 +11,7 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast.arm import generic_configuration
+from holdfast.arm.postures import _soundness
 from holdfast.arm.task import plane_normal
 from holdfast.assessment.single_points import structure
 
@@ -33,6 +34,16 @@ def test_nothing_is_special_in_it(name, home):
         for k in set(range(arm.n)) - set(fatal):
             reduced = np.delete(jacobian, k, axis=1)
             assert np.sqrt(max(np.linalg.det(reduced @ reduced.T), 0)) > 0.01 * whole
+
+
+def test_a_configuration_behind_the_mounting_plane_counts_half_of_its_mirror_image():
+    joints = [hf.Joint(f"j{k}", "revolute", oracles.pose(position=(0.4 * (k > 0), 0, 0)), axis=[0, 1, 0]) for k in range(4)]
+    arm = hf.Arm(name="leaning", joints=tuple(joints), base=np.eye(4), tool=oracles.pose(position=(0.4, 0, 0)))
+    ahead = np.array([[-0.6, -0.4, 0.5, 0.3], [-1.2, 0.7, -0.3, 0.2]])  # turns about y: all joints at z of 0 or more
+    assert min(frame[:, 2, 3].min() for frame in oracles.frames(arm, ahead)) > -1e-12
+    assert max(oracles.frames(arm, -ahead)[2][:, 2, 3]) < -0.1
+    np.testing.assert_allclose(_soundness(arm, ahead), 2 * _soundness(arm, -ahead))
+    assert (_soundness(arm, ahead) > 0).all()
 
 
 def test_a_sound_home_stays_and_a_degenerate_one_does_not():

@@ -276,7 +276,7 @@ def test_a_box_in_which_the_arm_blocks_itself_holds_nothing_that_is_clear(bodies
     arm = hf.arms.load("panda")
     clearance = hf.Clearance.by_default(arm)
     if not bodies:
-        clearance = hf.Clearance(arm, replace(clearance.capsules, shape=None))
+        clearance = hf.Clearance(arm, replace(clearance.capsules, shape=None, source=""))
     blocked = BlockedBoxes(clearance, 0.0)
     middle = rng.uniform(arm.lower, arm.upper, (3000, 7))
     half = rng.uniform(0, 0.03, middle.shape)

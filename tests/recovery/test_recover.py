@@ -325,7 +325,9 @@ def test_trouble_at_the_start_is_said_and_nothing_moves():
     folded[[1, 3, 5]] = 0.0, -3.0, 0.2
     clearance = Clearance(arm)
     assert clearance(folded) < 0.3
-    found = hf.recover(arm, ["panda_joint4"], folded, samples=0, clearance=clearance, margin=float(clearance(folded)) + 0.01)
+    found = hf.recover(
+        arm, ["panda_joint4"], folded, samples=0, clearance=clearance, margin=float(clearance.exact(folded)) + 0.01
+    )
     assert found.ending == Ending.START_TOO_CLOSE
     for ending in Ending:
         assert ending.sentence

@@ -136,11 +136,11 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     np.testing.assert_allclose(replay.poses[-1], oracles.forward(arm, bad[None])[0], atol=1e-9)
     other = home.copy()
     other[[1, 3, 5]] = 0.5, -2.9, 3.6
-    fine = home + np.linspace(0, 1, 4001)[:, None] * (other - home)
+    fine = home + np.linspace(0, 1, 801)[:, None] * (other - home)
     clearance = Clearance(arm)
     replay = check_waypoints(arm, [home, other], (), clearance=clearance, margin=0.5)
     assert not replay.ok
-    assert replay.least_clearance == pytest.approx(clearance(fine).min(), abs=2e-3)
+    assert replay.least_clearance == pytest.approx(clearance.exact(fine).min(), abs=5e-3)
     assert any("NOT KEPT" in line for line in replay.describe())
 
 

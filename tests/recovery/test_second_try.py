@@ -125,6 +125,7 @@ def test_every_pair_is_bounded_by_the_exact_distance_of_what_is_nearest(rng):
     np.testing.assert_array_equal(sharp.by_pair(q).min(axis=1), sharp(q))
     assert sharp(q[0]) == sharp(q[:1])[0]
     assert sharpened(sharp) is None
-    assert sharpened(hf.Clearance(arm)) is None
+    assert sharpened(hf.Clearance(arm, hf.Capsules.along(arm))) is None, "capsules that are the shape are exact"
+    assert isinstance(sharpened(hf.Clearance(arm)), Sharper)
     assert isinstance(sharp.with_cell(cells.bench()), Sharper)
-    assert not isinstance(sharp.with_cell(None), Sharper)
+    assert sharp.with_cell(None).cell is None

@@ -8,7 +8,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.recovery import continuation
+from holdfast.recovery import continuation, search
 from holdfast.recovery.layers import Graph
 
 JUMP = 0.35
@@ -89,6 +89,8 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     assert result.rest.graph > 0
     monkeypatch.setattr(continuation, "through_layers", lambda *_: Graph([], 0, 0))
     monkeypatch.setattr(continuation, "_FINER", 1)
+    for name in ("continued", "without_rows"):
+        monkeypatch.setattr(search, name, lambda made, *_: (made, []))
     alone = finished(three, low, high, here, path)
     assert not alone.ok
     assert flooded(path.pose(result.rest.share)[:, :2, 3], low, high)

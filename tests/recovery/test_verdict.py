@@ -6,12 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
 from holdfast.clearance.exact.engines import installed
 from holdfast.recovery import Ending, completion, search
+from holdfast.recovery.proofs import reach
 from holdfast.recovery.proofs.of_path import telling_first
 from holdfast.recovery.proofs.reach import listed, proved_by
 from holdfast.recovery.rows import row_solver
@@ -80,6 +82,44 @@ def test_a_motion_into_an_object_is_refused(moved, three):
     assert "ball" in str(found)
 
 
+def test_a_motion_that_touches_only_between_coarse_samples_is_refused(three):
+    """A thin link and a small ball, which is passed within a few mrad of joint 1."""
+    q = np.array([[0.0, 0.6, 0.9], [1.0, 0.6, 0.9]])
+    tip = three.forward_kinematics([0.5, 0.6, 0.9])[:3, 3]
+    thin = hf.Clearance(
+        three, hf.Capsules.along(three, 0.005), hf.Cell([hf.cell.Sphere("ball", 0.004, pose=tip)]), itself=False
+    )
+    coarse = q[0] + np.linspace(0, 1, 26)[:, None] * (q[1] - q[0])
+    assert (thin.room(coarse) > 0).all()
+    rows = row_solver(three, as_task(three, "planar")).rows
+    bad = hf.Degraded(three, locked={"joint2": 0.6, "joint3": 0.9})
+    assert "joint3 & ball" in str(verify(bad, q[0], q, rows=rows, clearance=thin))
+    away = thin.with_cell(hf.Cell([hf.cell.Sphere("ball", 0.004, pose=1.02 * tip)]))
+    assert verify(bad, q[0], q, rows=rows, clearance=away).ok
+
+
+@pytest.mark.parametrize(("turn", "lift", "ok"), [(0.3, 0.0, True), (0.8, 0.0, False), (0.0, 0.5e-3, True), (0.0, 2e-3, False)])
+def test_between_waypoints_a_tool_path_is_kept_to_half_a_degree_and_a_millimetre(turn, lift, ok):
+    """The path turns and lifts away from the motion between waypoints, and meets it at each of them."""
+    arm = hf.arms.load("panda")
+    at = np.array(hf.arms.about("panda").home)
+    q, places = at + np.linspace(0, 1, 6)[:, None] * [0.3, 0.1, 0, 0, 0, 0.2, 0], np.linspace(0, 1, 6)
+
+    class Wavy:
+        def pose(self, share):
+            made = arm.forward_kinematics(at + np.outer(share, q[-1] - at))
+            wave = np.sin(5 * np.pi * np.asarray(share)) ** 2
+            spin = Rotation.from_rotvec(np.deg2rad(turn) * wave[:, None] * [0, 0, 1]).as_matrix()
+            made[:, :3, :3] = spin @ made[:, :3, :3]
+            made[:, 2, 3] += lift * wave
+            return made
+
+    rows = row_solver(arm, as_task(arm, "pose")).rows
+    found = verify(hf.Degraded(arm, speeds={0: 0.5}), at, q, rows=rows, along=(Wavy(), places, slice(0, 6)))
+    assert found.ok == ok, found
+    assert ok or "is off the tool path by" in str(found)
+
+
 def test_a_motion_that_other_code_refuses_is_no_answer(three, monkeypatch):
     fault = Verification(faults=("it is wrong",), looked_at=1, exact_by="", goal_miss=None, path_miss=None)
     monkeypatch.setattr(completion, "verify", lambda *_, **__: fault)
@@ -134,22 +174,17 @@ def test_that_every_configuration_touches_something_is_a_proof(three):
     assert proved_by(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
 
 
-def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about_what_touches(rng):
+def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about_what_touches(rng, monkeypatch):
     arm = hf.arms.load("panda")  # the tool point lies on joint 7, which a position leaves idle and a cell does not
     q = rng.uniform(arm.lower, arm.upper)
     locks = {k: q[k] for k in (0, 2, 4)}
 
-    class Touches:
-        """All configurations touch where joint 7 is in the middle."""
-
-        def sign(self, q):
-            return np.zeros(len(q), dtype=bool)
-
+    monkeypatch.setattr(reach, "certain_contacts", lambda _, q: ["something"] * len(q))  # where joint 7 is in the middle
     for more, sure in (({}, False), ({6: q[6]}, True)):
         task = as_task(arm, "position")
         every = listed(hf.Degraded(arm, locked=locks | more), task, arm.forward_kinematics(q), np.inf)
         assert len(every.q)
-        assert (proved_by(every, Touches()) is not None) == sure
+        assert (proved_by(every, hf.Clearance(arm)) is not None) == sure
 
 
 def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):

@@ -34,7 +34,7 @@ class Hull:
         name: Of the piece: of its mesh in the file, or its kind.
         vertices: (V, 3) m, in the frame that moves with the joint; all of them corners.
         faces: (F, 3) indices, counterclockwise seen from outside.
-        convex: Whether it is the piece itself, to 0.1 % of its volume; a mesh that is not convex lies within.
+        fills: Part of its volume that the piece lacks; 0 unless the piece is a mesh.
     """
 
     link: int
@@ -42,7 +42,12 @@ class Hull:
     name: str
     vertices: Array
     faces: Triangles
-    convex: bool
+    fills: float
+
+    @property
+    def convex(self) -> bool:
+        """Whether the hull is the piece itself, to 0.1 % of its volume; a mesh that is not convex lies within."""
+        return self.fills <= _CONVEX
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -125,14 +130,14 @@ def hull_of(piece: Piece) -> Hull:
     a, b, c = (vertices[simplices[:, k]] for k in range(3))
     inward = (np.cross(b - a, c - a) * found.equations[:, :3]).sum(axis=1) < 0
     triangles = np.where(inward[:, None], simplices[:, ::-1], simplices)
-    convex = piece.kind != "mesh" or abs(_volume(vertices, faces) / found.volume - 1) <= _CONVEX
+    fills = abs(_volume(vertices, faces) / found.volume - 1) if piece.kind == "mesh" else 0.0
     return Hull(
         link=piece.link,
         owner=piece.owner,
         name=piece.name,
         vertices=vertices[found.vertices],
         faces=order[triangles].astype(np.int64),
-        convex=bool(convex),
+        fills=float(fills),
     )
 
 

@@ -127,6 +127,8 @@ def _recovered(arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, rows: st
     found = recover(arm, left, at, goal=goal, task=rows, samples=0, clearance=False)
     if found.ok:
         return Feasibility("yes", f"a motion to the goal was found {what}", np.asarray(found.q[-1]))
+    if found.verdict.kind == "start":
+        return Feasibility("unknown", found.verdict.why)
     if found.verdict.answer == "proved infeasible":
         return Feasibility("no", f"{what} it is proved: {found.verdict.why}")
     return Feasibility("not found", f"no motion to the goal was found {what}: {found.verdict.why}")

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from holdfast.arm.poses import rotation_vectors
 from holdfast.notice import each
 from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too, met_from
-from holdfast.recovery.layers import JUMP, through_layers
+from holdfast.recovery.layers import JUMP, continue_path, through_layers
+from holdfast.recovery.routes import reachable_goals
 from holdfast.recovery.rows import RowSolver, preferred, subsets
 from holdfast.recovery.space import Metric, Space
 from holdfast.recovery.timing.motion import OFF_PATH
@@ -35,14 +36,16 @@ class RestOfPath:
     """What became of the rest of a tool path.
 
     Attributes:
-        furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row.
+        furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row, to 0.001; it begins in a
+            configuration of the first pose to which a motion of the arm was found.
+        begin: (n,) that configuration, rad and m; None if none was found.
         share: (S,) samples of the path, 0 to 1.
         found: (S,) True where a configuration of that pose was found at all, each sample on its own.
         q: (S, n) the motion, without the rows given up if there are any; (0, n) if none was found; rad and m.
         deviation: Largest error of the rows kept half-way between waypoints, m and rad.
         given_up: Rows given up over the whole path, with the most that they miss on the way; None if all are kept.
         starts: Configurations of the first pose from which the path was followed.
-        cut_off: Motions along the path exist, but no route to the beginning of any was found; ``q`` is then empty.
+        cut_off: Configurations of the beginning were found, but no route to any of them; ``q`` is then empty.
         graph: Configurations of a graph through all poses that was searched where following the path from each start ended
             early; 0 if it was not needed, or if the arm has no self-motion left.
     """
@@ -54,6 +57,7 @@ class RestOfPath:
     deviation: float
     given_up: RowsGivenUp | None
     starts: int
+    begin: Array | None = None
     cut_off: bool = False
     graph: int = 0
 
@@ -72,7 +76,7 @@ class RestOfPath:
     def why(self) -> str:
         """Why it was not finished, a phrase."""
         if self.cut_off:
-            return "motions along it exist, but no route from here to the beginning of any was found"
+            return "configurations of its beginning exist, but no route from here to any of them was found"
         if self.first_lost is not None:
             return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
         among = f" among {self.graph:,} configurations joined from pose to pose" if self.graph else ""
@@ -85,7 +89,10 @@ class RestOfPath:
                 f"The rest of the tool path can be finished: {len(self.q)} waypoints, off the path by at most "
                 f"{self.deviation:.2g} (m and rad) between them."
             )
-        text = f"The rest of the tool path was not finished: {self.why}; the best motion gets to {100 * self.furthest:.1f} %."
+        text = f"The rest of the tool path was not finished: {self.why}; the best motion gets to {100 * self.furthest:.1f} %"
+        if self.begin is not None:
+            text += f" of it, from the configuration ({', '.join(f'{x:.4g}' for x in self.begin)}) of its first pose"
+        text += "."
         if self.given_up is not None:
             text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
         return text
@@ -111,6 +118,45 @@ def rest_of_path(
         if not motions:
             made, motions = _followed(made, solver, space, metric, path, first, _FINER)
     return (along(made, solver, path, motions[0]) if motions else made), motions
+
+
+def continued(
+    made: RestOfPath,
+    solver: RowSolver,
+    space: Space,
+    metric: Metric,
+    path: Path,
+    at: Array,
+    starts: int,
+    rng: np.random.Generator,
+) -> tuple[RestOfPath, list[Array]]:
+    """A path that was not finished, with the furthest place to which the arm follows it, and the motion if that is its end.
+
+    Followed are all configurations of the first pose that were found and to which a motion leads.
+    """
+    made = replace(made, furthest=0.0)
+    pose = path.pose(made.share[:1])[0]
+    first = np.concatenate(
+        [
+            configurations_of(solver, space, metric, pose, at, starts, rng),
+            met_from(solver, space, pose, solver.starts(starts, at, space.free, rng)),
+        ]
+    )
+    first = at + space.difference(first, at)
+    if not len(first):
+        return made, []
+    first = first[reachable_goals(space, metric, at, first, rng)]
+    if not len(first):
+        return replace(made, cut_off=True), []
+    stride = float(np.diff(made.share).max())
+    end = continue_path(solver, space, metric, path, first, stride=stride, rng=rng)
+    furthest, graph = float(end.share[-1]), max(made.graph, end.size)
+    made = replace(made, furthest=furthest, begin=end.q[0], graph=graph, cut_off=False)
+    made = replace(made, found=made.found | (made.share <= furthest))
+    if furthest < 1:
+        return made, []
+    made = replace(made, share=end.share, found=np.ones(len(end.share), dtype=bool))
+    return along(made, solver, path, end.q), [end.q]
 
 
 def _followed(
@@ -141,6 +187,9 @@ def without_rows(
             given_up, motion = best
             mask = np.ones(solver.rows.m)
             mask[list(given_up)] = 0.0
+            given_up = tuple(np.flatnonzero(solver.missed(motion, poses).any(axis=0)).tolist())
+            if not given_up:  # a row that is met all the way is not given up
+                return along(made, solver, path, motion), [motion]
             misses = np.abs(solver.errors(motion, poses)).max(axis=0)[list(given_up)]
             names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
             rows = RowsGivenUp(tuple(names), tuple(misses.tolist()), tuple(units))

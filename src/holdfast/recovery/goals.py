@@ -100,12 +100,17 @@ def kept_too(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Arra
     return q
 
 
-def what_bars(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> str:
-    """The pair that most often is too close where every row of a pose (4, 4) is met, or nothing if none is met or clear."""
-    begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
-    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
-    q = solver.run(begin, poses, kept, space.free)
-    return space.nearest(q[solver.meets(q, poses, kept, space.free)])
+def what_bars(solver: RowSolver, space: Space, poses: Array, at: Array, seed: int) -> str:
+    """The pair that most often is too close where one of poses (G, 4, 4) is met; empty if none is met or each is clear."""
+    rng = np.random.default_rng(seed)
+    for pose in poses:
+        begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
+        same, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
+        q = solver.run(begin, same, kept, space.free)
+        pair = space.nearest(q[solver.meets(q, same, kept, space.free)])
+        if pair:
+            return pair
+    return ""
 
 
 def _good(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> NDArray[np.bool_]:
@@ -129,10 +134,13 @@ def _distinct(q: Array) -> Array:
 def rows_to_give_up(
     solver: RowSolver, space: Space, metric: Metric, pose: Array, at: Array, rng: np.random.Generator
 ) -> list[Relaxed]:
-    """Every minimal set of rows without which a pose is met, as far as found: few rows first, turns before positions."""
-    rows, found, minimal = solver.rows, [], list[tuple[int, ...]]()
+    """Every minimal set of rows without which a pose is met, as far as found: few rows first, turns before positions.
+
+    A row that is met all the same is not given up; of a set without any row left the configurations meet the whole pose.
+    """
+    rows, found = solver.rows, dict[tuple[int, ...], Array]()
     for size in range(1, rows.m):
-        sets = subsets(rows.m, size, minimal)
+        sets = subsets(rows.m, size, list(found))
         if not sets or space.spent:
             break
         begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
@@ -147,23 +155,55 @@ def rows_to_give_up(
         missed = np.linalg.norm(solver.errors(q, poses), axis=1)
         for k, given_up in enumerate(each("sets of rows", sets)):
             some = np.flatnonzero(good & (owner == k))
-            if not some.size:
-                continue
-            minimal.append(given_up)
-            lost = list(given_up)
             some = some[np.argsort(missed[some], kind="stable")]
-            better = [_polished(solver, space, pose, x, lost) for x in _distinct(q[some])[:_POLISHED]]
-            ends = np.concatenate([np.stack(better), q[some]])
-            error = np.abs(solver.errors(ends, np.repeat(pose[None], len(ends), axis=0))[:, lost])
-            size = np.linalg.norm(error, axis=1)
-            near = size <= size.min() * (1 + 1e-3) + 1e-6
-            least = error[size.argmin()]
-            ends = at + space.difference(ends[near], at)
-            ends = _distinct(ends[np.argsort(metric.length(ends - at), kind="stable")])
-            names, units = ([x[i] for i in given_up] for x in (rows.names, rows.units))
-            found.append((given_up, Relaxed(RowsGivenUp(tuple(names), tuple(least.tolist()), tuple(units)), ends)))
-    found.sort(key=lambda x: (*preferred(rows, x[0]), float(np.linalg.norm(x[1].rows.misses))))
-    return [relaxed for _, relaxed in found]
+            if some.size:
+                for fewer, ends in _with_fewer_rows(solver, space, pose, q[some], given_up).items():
+                    found[fewer] = np.concatenate([found.get(fewer, ends[:0]), ends])
+        found = {one: q for one, q in found.items() if not any(set(other) < set(one) for other in found)}
+    relaxed = [(given_up, _relaxed(solver, metric, space, pose, at, given_up, q)) for given_up, q in found.items()]
+    relaxed.sort(key=lambda x: (*preferred(rows, x[0]), float(np.linalg.norm(x[1].rows.misses))))
+    return [one for _, one in relaxed]
+
+
+def _with_fewer_rows(
+    solver: RowSolver, space: Space, pose: Array, q: Array, given_up: tuple[int, ...]
+) -> dict[tuple[int, ...], Array]:
+    """Configurations by the rows that they miss, from some (N, n) that meet all rows but those given up.
+
+    Those are moved to where the rows given up are missed least, and to where one of them is met too, if that leads anywhere.
+    """
+    found, open_ = dict[tuple[int, ...], Array](), [(given_up, q)]
+    while open_:
+        lost, begin = open_.pop()
+        better = [_polished(solver, space, pose, x, list(lost)) for x in _distinct(begin)[:_POLISHED]]
+        ends = np.concatenate([np.stack(better), begin])
+        missed = solver.missed(ends, np.repeat(pose[None], len(ends), axis=0))
+        for names in {tuple(np.flatnonzero(row).tolist()) for row in missed}:
+            same = ends[(missed == np.isin(np.arange(solver.rows.m), names)).all(axis=1)]
+            found[names] = np.concatenate([found.get(names, same[:0]), same])
+        for row in lost if len(lost) > 1 else ():
+            fewer = tuple(k for k in lost if k != row)
+            mask = np.ones((len(better), solver.rows.m))
+            mask[:, fewer] = 0.0
+            poses = np.repeat(pose[None], len(better), axis=0)
+            nearer = kept_too(solver, space, solver.run(np.stack(better), poses, mask, space.free), poses, mask)
+            good = _good(solver, space, nearer, poses, mask)
+            if good.any() and not any(set(one) <= set(fewer) for one in found):
+                open_.append((fewer, nearer[good]))
+    return found
+
+
+def _relaxed(
+    solver: RowSolver, metric: Metric, space: Space, pose: Array, at: Array, given_up: tuple[int, ...], q: Array
+) -> Relaxed:
+    """Of configurations (N, n) those that miss the rows given up by least, the nearest first."""
+    error = np.abs(solver.errors(q, np.repeat(pose[None], len(q), axis=0))[:, given_up])
+    size = np.linalg.norm(error, axis=1)
+    near = size <= size.min() * (1 + 1e-3) + 1e-6
+    ends = at + space.difference(q[near], at)
+    ends = _distinct(ends[np.argsort(metric.length(ends - at), kind="stable")])
+    names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
+    return Relaxed(RowsGivenUp(tuple(names), tuple(error[size.argmin()].tolist()), tuple(units)), ends)
 
 
 def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:

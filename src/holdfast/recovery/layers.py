@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,9 @@ from holdfast.notice import each
 from holdfast.recovery.goals import kept_too, met_from
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Metric, Space
+
+if TYPE_CHECKING:
+    from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -22,6 +26,13 @@ _COPIES = 3  # moved along the self-motion, of each of them
 _STIR = 0.15  # rad or m, standard deviation of that
 _SAME = 1e-3  # rad or m: configurations that are no nearer count as two
 _SWEEPS = 40
+
+FINEST_SHARE = 2.5e-4  # of a path: how closely the end of a motion along it is found
+_STILL = 1e-7  # of a path: a step along the self-motion, nearly in place, so that places increase
+_KEPT = 60  # configurations of a place where a path is followed as far as possible
+_BENT = 0.25  # of a step, by which its middle may be off the straight line
+_SPREADS = 8  # along the self-motion, before the end counts as reached
+_LAYERS = 4000
 
 
 @dataclass(frozen=True)
@@ -88,6 +99,98 @@ def through_layers(
         if chosen[-1] not in motions:
             motions[chosen[-1]] = np.stack([q[k] for q, k in zip(layers, reversed(chosen), strict=True)])
     return Graph(list(motions.values()), len(poses) - 1, size)
+
+
+@dataclass(frozen=True)
+class Continuation:
+    """How far a path is followed from configurations of its beginning.
+
+    Attributes:
+        share: (S,) places on the path, 0 to 1, increasing; the last one is where every motion found ends.
+        q: (S, n) the shortest motion to there, rad and m.
+        size: Configurations of all places together, where self-motion was used; else 0.
+    """
+
+    share: Array
+    q: Array
+    size: int
+
+
+def continue_path(
+    solver: RowSolver, space: Space, metric: Metric, path: Path, first: Array, *, stride: float, rng: np.random.Generator
+) -> Continuation:
+    """Follow a path as far as possible from any of the configurations (R, n) of its beginning.
+
+    Steps become shorter where none leads on, down to ``FINEST_SHARE``. If the arm has self-motion, the configurations of the
+    last place are then spread along it, and the path is tried again from there.
+
+    Args:
+        solver: Of the rows that count.
+        space: Where the arm may be.
+        metric: By which motions are short.
+        path: The path.
+        first: (R, n) configurations of its beginning, at least one, rad and m.
+        stride: Largest step, a share of the path.
+        rng: For the spreading.
+    """
+    copies = _COPIES if space.free.sum() > solver.rows.m else 0
+    some = _spread(first, np.zeros(len(first)), _KEPT)
+    layers, came, share = [first[some]], [some], [0.0]
+    cost, step, spreads, since = np.zeros(len(some)), stride, 0, 0.0
+    while share[-1] < 1 and not space.spent and len(layers) < _LAYERS:
+        place = min(share[-1] + step, 1.0)
+        after, source, total = _next_layer(
+            solver, space, metric, layers[-1], cost, path.pose(np.array([place]))[0], copies, rng
+        )
+        if len(after):
+            layers, came, share, cost = [*layers, after], [*came, source], [*share, place], total
+            if step == _STILL:
+                step = FINEST_SHARE
+                continue
+            step = min(2 * step, stride)
+            if place - since > 4 * FINEST_SHARE:
+                spreads, since = 0, place
+        elif step > FINEST_SHARE:
+            step /= 4
+        elif copies and spreads < _SPREADS:
+            spreads, step = spreads + 1, _STILL
+        else:
+            break
+    q = [int(cost.argmin())]
+    for source in came[:0:-1]:
+        q.append(int(source[q[-1]]))
+    motion = np.stack([layer[k] for layer, k in zip(layers, reversed(q), strict=True)])
+    return Continuation(np.array(share), motion, sum(map(len, layers)) if copies else 0)
+
+
+def _next_layer(
+    solver: RowSolver,
+    space: Space,
+    metric: Metric,
+    before: Array,
+    cost: Array,
+    pose: Array,
+    copies: int,
+    rng: np.random.Generator,
+) -> tuple[Array, Index, Array]:
+    """Configurations (K, n) of a pose one step from configurations (N, n), from which each comes, and the cost up to there."""
+    source = np.tile(np.arange(len(before)), 1 + copies)
+    stirred = before[source]
+    stirred[len(before) :] += rng.normal(0.0, _STIR, (copies * len(before), before.shape[1])) * space.free
+    poses = np.repeat(pose[None], len(source), axis=0)
+    after, good = _met(solver, space, stirred, poses, before[source])
+    source, after = source[good], after[good]
+    some = _spread(after, cost[source] + metric.length(after - before[source]), 2 * _KEPT)
+    source, after = source[some], after[some]
+    # On another branch the middle is not where the straight line has it.
+    middle, near = _met(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
+    off = np.abs(middle - (before[source] + after) / 2).max(axis=1)
+    near &= off <= _BENT * np.abs(after - before[source]).max(axis=1) + 10 * _SAME
+    near[near] = space.edges(before[source[near]], after[near])
+    source, after = source[near], after[near]
+    total = cost[source] + metric.length(after - before[source])
+    some = _spread(after, total, _KEPT)
+    return after[some], source[some], total[some]
 
 
 def _met(solver: RowSolver, space: Space, q: Array, poses: Array, before: Array) -> tuple[Array, Flags]:

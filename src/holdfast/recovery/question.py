@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,7 @@ from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arm.tree import listed
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.certainty import certain_contacts, unknown_shape
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
 from holdfast.keep.kept import Kept
@@ -45,6 +46,46 @@ class Goal:
     poses: Array
     q: Array | None = None
     lost: RowsGivenUp | None = None
+
+
+def check_numbers(
+    counts: Mapping[str, tuple[int, int]],
+    *,
+    time_limit: float | None,
+    tolerance: tuple[float, float] | None,
+    period: float,
+    margin: float,
+) -> None:
+    """Check the numbers of a recovery; counts come with the least that each may be.
+
+    Raises:
+        InputError: One of them is out of bounds.
+    """
+    for name, (number, least) in counts.items():
+        if number < least:
+            raise InputError(f"{name} is {number}; it must be {least} or more")
+    if time_limit is not None and not time_limit > 0:
+        raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
+    if tolerance is not None and (len(tolerance) != 2 or not all(0 <= x < np.inf for x in tolerance)):
+        raise InputError(f"tolerance is {tolerance}; give two finite numbers of 0 or more, in m and rad")
+    if not (np.isfinite(period) and period > 0):
+        raise InputError(f"period is {period}; it must be above 0, in seconds")
+    if not np.isfinite(margin):
+        raise InputError(f"margin is {margin}; it must be a finite number of metres")
+
+
+class Trouble(NamedTuple):
+    """Why the arm may not even start.
+
+    Attributes:
+        ending: What it means.
+        reason: A sentence.
+        certain: Whether that is proved; False where only a cover of the arm, or an assumption about it, is in the way.
+    """
+
+    ending: Ending
+    reason: str
+    certain: bool = True
 
 
 def home_of(arm: Arm) -> tuple[Array, str]:
@@ -109,7 +150,7 @@ def goal_of(
     poses = arm.forward_kinematics(q)[None]
     if by_hand:
         return Goal(f"the end effector where it is at {text}", poses)
-    if clearance is not None and float(clearance.room(q)) < margin:
+    if clearance is not None and float(clearance.room(q)) < margin and certain_contacts(clearance, q[None], margin)[0]:
         raise InputError(
             f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"
         )
@@ -148,30 +189,42 @@ def broken_by(keep: Sequence[Kept], rows: Rows | None, pose: Array) -> str:
     return ""
 
 
+def doubtful_contact(clearance: Clearance, q: Array, margin: float) -> str:
+    """Say that a configuration (n,) may be clear although what covers the arm is too close there, and what is not known."""
+    unknown = unknown_shape(clearance) or f"exact distances ({clearance.exact_by}) do not decide it"
+    return f"it is not known whether the arm {clearance.too_close(margin, q)}: {unknown}; give its meshes or its real capsules"
+
+
 def trouble_of(
     degraded: Degraded, at: Array, clearance: Clearance | None, margin: float, keep: Sequence[Kept] = ()
-) -> tuple[Ending, str] | None:
-    """Why the arm may not even start, or None."""
+) -> Trouble | None:
+    """Why the arm may not even start, or None if it may."""
     arm, value = degraded.arm, degraded.lo
     for k in np.flatnonzero(~degraded.moves & (np.abs(at - value) > SAME)):
-        return Ending.LOCK_ELSEWHERE, (
+        return Trouble(
+            Ending.LOCK_ELSEWHERE,
             f"{arm.joint_names[k]} is said to be locked at {value[k]:.6g} and is at {at[k]:.6g} {arm.joints[k].unit}; "
-            "give the angle at which it is, or leave the angle out"
+            "give the angle at which it is, or leave the angle out",
         )
     for joint, x in zip(degraded.limited.joints, at, strict=True):
         if not joint.lower <= x <= joint.upper:
             reduced = joint.name in degraded.ranges
-            return Ending.START_OUTSIDE_LIMITS, (
+            return Trouble(
+                Ending.START_OUTSIDE_LIMITS,
                 f"{joint.name} is at {x:.6g} {joint.unit}, its limits are {'now ' * reduced}{joint.lower:.6g} to "
-                f"{joint.upper:.6g}; if it can move there, widen {'its range' if reduced else 'the limits of the arm'}"
+                f"{joint.upper:.6g}; if it can move there, widen {'its range' if reduced else 'the limits of the arm'}",
             )
     if clearance is not None and clearance.pair_names and float(clearance.room(at)) < margin:
+        pair = certain_contacts(clearance, at[None], margin)[0]
+        if not pair:
+            return Trouble(Ending.START_TOO_CLOSE, doubtful_contact(clearance, at, margin), certain=False)
         own = int(clearance.closest_pair(at)) < len(clearance.pairs)
         advice = "or no clearance" if own else "or move the object"
-        return Ending.START_TOO_CLOSE, f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, {advice}"
+        close = f"the arm {clearance.too_close(margin, at)}, which is certain of {pair}"
+        return Trouble(Ending.START_TOO_CLOSE, f"{close}; give the arm's real capsules, {advice}")
     start = arm.forward_kinematics(at[None])
     for one in keep:
         trouble = one.trouble(start)
         if trouble:
-            return Ending.START_BREAKS_ROWS, f"the tool is {trouble} where the arm is; what is kept is {one}"
+            return Trouble(Ending.START_BREAKS_ROWS, f"the tool is {trouble} where the arm is; what is kept is {one}")
     return None

@@ -103,7 +103,8 @@ _SENTENCES = {
     "is none: give more starts",
     Ending.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
     Ending.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
-    Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself or its cell than the clearance that must be kept",
+    Ending.START_TOO_CLOSE: "no motion: the arm, or what covers it, is already closer to itself or its cell than the clearance "
+    "that must be kept",
     Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
     Ending.START_BREAKS_ROWS: "no motion: where the arm is breaks a row that must be kept all the way",
     Ending.PROVED_DISCONNECTED: "configurations of the goal exist, and NO motion leads to any of them, which is PROVED",
@@ -157,6 +158,8 @@ class Recovery(Result):
         legs: The parts of the motion, in order.
         given_up: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
+        unknown: What is not known of the arm's shape, a sentence, where only a cover or an assumption is in the way of what was
+            asked for; empty if nothing depends on that.
         proof: Why not everything that was asked for can be done, if that is proved; else None.
         proof_kind: Of the proof; see :class:`holdfast.recovery.Verdict`.
         proved_pose: (4, 4) of the end effector, m, world: the pose of the tool path that is proved to have no configuration.
@@ -190,6 +193,7 @@ class Recovery(Result):
     legs: tuple[Leg, ...] = ()
     given_up: RowsGivenUp | None = None
     choices: tuple[RowsGivenUp, ...] = ()
+    unknown: str = ""
     proof: str | None = None
     proof_kind: ProofKind | Literal[""] = ""
     proved_pose: Array | None = None
@@ -236,10 +240,12 @@ class Recovery(Result):
             if self.verified is None or self.verified.ok:
                 return Verdict("solved")
             return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
-        if self.proof_kind:
+        if self.proof_kind and self.proof_kind != "start":
             return Verdict("proved infeasible", f"{self.proof or ''}{self._within}", self.proof_kind)
-        if self.ending >= Ending.START_OUTSIDE_LIMITS:
+        if self.proof_kind == "start":
             return Verdict("proved infeasible", self.reason, "start")
+        if self.unknown:
+            return Verdict("undecided", self.unknown)
         if self.closed_in:
             there = "the goal" if self.closed_in == "start" else "the start"
             return Verdict(

@@ -12,6 +12,7 @@ from holdfast.recovery.space import Metric, Space
 from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
 _BATCH = 48  # samples a round
@@ -24,6 +25,7 @@ _WALKS = 24  # the same where rows are kept exactly
 _QUIET = 20  # rounds of a tree in which hardly a walk leads to where it is not yet: it fills all that it can get to
 _FRESH = 0.2  # of the reach, how far from every node of its tree a walk must lead to count
 _FEW = 4  # walks that do so in these rounds, of 960
+_SEARCHED = 8  # goals that are searched for one by one
 _IDLE = 8  # rounds without a gain before the way counts as short
 
 
@@ -95,6 +97,26 @@ def find_route(
             best = Route(q, total, bound, int(some[goal]), len(q) == 2)
     space.closed_in = ""
     return best
+
+
+def reachable_goals(space: Space, metric: Metric, start: Array, goals: Array, rng: np.random.Generator) -> Flags:
+    """(G,) True for those goals (G, n) to which a motion from start (n,) was found, straight or by one search each."""
+    goals = start + space.difference(goals, start)
+    found = space.walk(metric, np.repeat(start[None], len(goals), axis=0), goals - start)[1]
+    for _ in range(_SEARCHED):
+        fresh = found.copy()
+        while fresh.any() and not found.all():  # what can be got to from what was just found
+            away = np.flatnonzero(~found)
+            near = metric.length(goals[away, None] - goals[fresh][None]).argmin(axis=1)
+            begin = goals[fresh][near]
+            fresh = np.zeros_like(found)
+            fresh[away] = space.walk(metric, begin, goals[away] - begin)[1]
+            found |= fresh
+        route = None if found.all() or space.spent else find_route(space, metric, start, goals[~found], 1, rng)
+        if route is None:
+            break
+        found[np.flatnonzero(~found)[route.goal]] = True
+    return found
 
 
 class _Tree:

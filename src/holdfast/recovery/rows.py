@@ -201,8 +201,11 @@ class RowSolver:
     def meets(self, q: Array, poses: Array, kept: Array, free: Flags) -> Flags:
         """(N,) True where the joints that are free keep their limits and the rows kept (N, m) above 0 are within tolerance."""
         inside = (((q >= self.arm.lower) & (q <= self.arm.upper)) | ~free).all(axis=1)
-        missed = np.abs(self.errors(q, poses) / self._scale * (kept > 0)).max(axis=1)
-        return np.asarray(inside & (missed <= self._tolerance))
+        return np.asarray(inside & ~(self.missed(q, poses) & (kept > 0)).any(axis=1))
+
+    def missed(self, q: Array, poses: Array) -> Flags:
+        """(N, m) True for rows that configurations (N, n) miss by more than the tolerance."""
+        return np.asarray(~(np.abs(self.errors(q, poses) / self._scale) <= self._tolerance))
 
     def nearest(self, q: Array, poses: Array, kept: Array, free: Flags) -> Array:
         """From starts q (N, n): the rows kept (N, m) met, and of the others as little error as possible."""

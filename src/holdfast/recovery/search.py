@@ -16,19 +16,20 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.certainty import unknown_shape
 from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.completion import completed
-from holdfast.recovery.continuation import RestOfPath, along, refined, rest_of_path, without_rows
-from holdfast.recovery.goals import Relaxed, configurations_of, rows_to_give_up, what_bars
+from holdfast.recovery.continuation import RestOfPath, along, continued, refined, rest_of_path, without_rows
+from holdfast.recovery.goals import configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
 from holdfast.recovery.proofs.reach import Tolerance, every_clear, nothing_within, unreachable
 from holdfast.recovery.proofs.separation import separated
-from holdfast.recovery.question import SAME, Goal, broken_by, goal_of, task_of, trouble_of
+from holdfast.recovery.question import SAME, Goal, broken_by, check_numbers, doubtful_contact, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
 from holdfast.recovery.remainder import what_is_left
 from holdfast.recovery.routes import Route, find_route
@@ -39,7 +40,6 @@ from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
 from holdfast.regions.region import Region
 
 if TYPE_CHECKING:
-    from holdfast.enclosure import Configurations
     from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
@@ -126,17 +126,8 @@ def recover(
     q, single = as_configurations(arm, at)
     if not single:
         raise InputError(f"at has shape {np.shape(at)}; give one configuration of {arm.n} numbers")
-    for name, number, least in (("samples", samples, 0), ("starts", starts, 1), ("tries", tries, 0), ("seed", seed, 0)):
-        if number < least:
-            raise InputError(f"{name} is {number}; it must be {least} or more")
-    if time_limit is not None and not time_limit > 0:
-        raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
-    if tolerance is not None and (len(tolerance) != 2 or not all(0 <= x < np.inf for x in tolerance)):
-        raise InputError(f"tolerance is {tolerance}; give two finite numbers of 0 or more, in m and rad")
-    if not (np.isfinite(period) and period > 0):
-        raise InputError(f"period is {period}; it must be above 0, in seconds")
-    if not np.isfinite(margin):
-        raise InputError(f"margin is {margin}; it must be a finite number of metres")
+    counts = {"samples": (samples, 0), "starts": (starts, 1), "tries": (tries, 0), "seed": (seed, 0)}
+    check_numbers(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin)
     start = q[0]
     degraded = degraded_at(arm, locked, start)
     if degraded is None:
@@ -179,7 +170,8 @@ def recover(
         asked = replace(made, clearance=kept)
         trouble = trouble_of(degraded, start, kept, margin, made.keep)
         if trouble is not None:
-            return replace(asked, ending=trouble[0], reason=trouble[1])
+            known = {"proof_kind": "start"} if trouble.certain else {"unknown": trouble.reason}
+            return replace(asked, ending=trouble.ending, reason=trouble.reason, **known)  # type: ignore[arg-type]
         around = np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])])
         space = Space(limited, free, kept, margin, around, keep=made.keep)
         if time_limit is not None:
@@ -209,10 +201,8 @@ class _Search:
         rng: np.random.Generator,
         pace: tuple[Array, float] | None,
     ) -> None:
-        self._pace, self._few = (
-            pace,
-            max(1, tries // 4),
-        )  # of 385 searches that found a route in one of six, all did in the first
+        self._pace = pace
+        self._few = max(1, tries // 4)  # of 385 searches that found a route in one of six, all did in the first
         self.made, self.solver, self.space, self.metric, self.tries, self.rng = made, solver, space, metric, tries, rng
         self._q: list[Array] = []
         self._legs: list[Leg] = []
@@ -255,10 +245,26 @@ class _Search:
         rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
         self._look("following the tool path")
         if not rest.finished:
+            rest, motions = self._continued(rest, path, here)
+        if not rest.finished:
             self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
+            shape, lost = unknown_shape(self.space.clearance), rest.first_lost
+            first = path.pose(rest.share[:1] if lost is None else np.array([lost]))
+            if shape and (lost is None or what_bars(self.solver, self.space, first, here, self.made.seed)):
+                self.made = replace(self.made, unknown=f"{rest.why}; {shape}")
             rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
             self._look("looking for rows of the tool path to give up")
+        if not motions:
+            return rest
+        reached = self._reach(here, path, rest, motions)
+        if not reached.cut_off or rest.given_up is not None:
+            return reached
+        rest, motions = self._continued(reached, path, here)
         return self._reach(here, path, rest, motions) if motions else rest
+
+    def _continued(self, rest: RestOfPath, path: Path, here: Array) -> tuple[RestOfPath, list[Array]]:
+        """The same with the furthest place to which the arm can follow the path, and the motion if that is its end."""
+        return continued(rest, self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
 
     def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
         """The first of the motions along the path that can be reached, and is near it all the way."""
@@ -285,9 +291,6 @@ class _Search:
         self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
-    def _every(self, pose: Array) -> tuple[Configurations | None, str | None]:
-        return every_clear(self.made.degraded, self.made.task, pose, self.space, self.made.clearance)
-
     def _route(self, here: Array, goals: Array, again: int = 0) -> Route | None:
         tries, vain = (again, None) if again else (self.tries, self._few)
         return find_route(self.space, self.metric, here, goals, tries, self.rng, vain=vain)
@@ -311,6 +314,10 @@ class _Search:
         if all(broken):
             why = broken[0]
             return replace(made, ending=Ending.PROVED_UNREACHABLE, proof=why, proof_kind="rows kept", reason=why)
+        seen = self.space.clearance
+        if aim.q is not None and seen is not None and float(seen.room(aim.q)) < made.margin:
+            why = f"at the goal {doubtful_contact(seen, aim.q, made.margin)}"
+            return replace(made, ending=Ending.NOTHING_FOUND, reason=why, unknown=why)
         if aim.q is not None:
             goals, owner = aim.q[None], np.zeros(1, dtype=np.int64)
         else:
@@ -318,7 +325,8 @@ class _Search:
                 configurations_of(self.solver, self.space, self.metric, pose, here, made.starts, self.rng) for pose in aim.poses
             ]
             goals, owner = np.concatenate(each), np.repeat(np.arange(len(each)), [len(x) for x in each])
-        every = [] if len(goals) else [self._every(pose) for pose in aim.poses]
+        asked = made.degraded, made.task
+        every = [] if len(goals) else [every_clear(*asked, pose, self.space, made.clearance) for pose in aim.poses]
         for k, (configurations, _) in enumerate(every):
             some = np.zeros((0, made.arm.n)) if configurations is None else configurations.q
             some = some[self.space.clear(some)] if len(some) else some
@@ -338,16 +346,18 @@ class _Search:
                 return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
             self._look("looking for a route to the goal")
             found = f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
-            reasons.append(found + self._in_the_way(here, goals[0]))
+            reasons.append(found + self.space.in_the_way(here, goals[0]))
             if apart is not None and aim.lost is None:
                 made = replace(made, proof=apart[0], reason=apart[0], proved_within=apart[1], proof_kind="disconnected")
                 return replace(made, ending=Ending.PROVED_DISCONNECTED)
             why, closed_in = "; ".join(reasons), self.space.closed_in
-            return replace(made, ending=Ending.NO_ROUTE_FOUND, given_up=None, reason=why, closed_in=closed_in)
+            unknown = f"configurations were found, but no motion to them; {shape}" if (shape := unknown_shape(seen)) else ""
+            ended = replace(made, given_up=None, reason=why, closed_in=closed_in, unknown=unknown)
+            return replace(ended, ending=Ending.NO_ROUTE_FOUND)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
         proofs = [bound or box for bound, (_, box) in zip(bounds, every, strict=True)]
         proof = None if None in proofs else proofs[0]
-        pair = "" if proof else what_bars(self.solver, self.space, aim.poses[0], here, np.random.default_rng(made.seed))
+        pair = "" if proof else what_bars(self.solver, self.space, aim.poses, here, made.seed)
         found = "no clear configuration" if pair else "no configuration"
         bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
         reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
@@ -357,6 +367,8 @@ class _Search:
                 nothing_within(made.degraded, made.task, pose, self.space, made.tolerance) for pose in aim.poses
             )
             made = replace(made, proof=proof, proof_kind=kind, proved_within=within)
+        elif pair and (shape := unknown_shape(seen)):
+            made = replace(made, unknown=f"the goal is met where {pair} may be too close; {shape}")
         offers = [
             (choice, pose)
             for pose in aim.poses
@@ -369,11 +381,15 @@ class _Search:
             route = self._route(here, choice.q)
             if route is not None:
                 self._add("to the goal", route.q, route.lower_bound, route.straight)
-                return self._relaxed(replace(made, goal_pose=pose), aim, choice, choices, reasons)
+                if not choice.rows.names:  # every row is met: what the search missed was found beside it
+                    return replace(made, ending=ending, goal_pose=pose, unknown="", reason="; ".join(reasons[:-1]))
+                rows = choice.rows if aim.lost is None else aim.lost + choice.rows
+                sets, ending, why = tuple(c.rows for c in choices), Ending.HOME_WITH_ROWS_GIVEN_UP, "; ".join(reasons)
+                return replace(made, goal_pose=pose, ending=ending, given_up=rows, choices=sets, reason=why)
         nothing = Ending.PROVED_UNREACHABLE if proof else Ending.NOTHING_FOUND
         if choices:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
-        everything = tuple(c.rows for c in choices)
+        everything = tuple(c.rows for c in choices if c.rows.names)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
 
     @property
@@ -382,18 +398,3 @@ class _Search:
         if self.space.spent or self.space.closed_in:
             return "the searches"
         return f"{self.tries} search{'es' * (self.tries != 1)}"
-
-    def _in_the_way(self, here: Array, goal: Array) -> str:
-        """What a straight line to a goal meets, if it meets anything."""
-        pair = self.space.nearest(here + np.linspace(0, 1, 201)[:, None] * self.space.difference(goal, here))
-        return f"; in the way of the straight line: {pair}" if pair else ""
-
-    def _relaxed(self, made: Recovery, aim: Goal, choice: Relaxed, choices: list[Relaxed], reasons: list[str]) -> Recovery:
-        rows = choice.rows if aim.lost is None else aim.lost + choice.rows
-        return replace(
-            made,
-            ending=Ending.HOME_WITH_ROWS_GIVEN_UP,
-            given_up=rows,
-            choices=tuple(c.rows for c in choices),
-            reason="; ".join(reasons),
-        )

@@ -28,7 +28,7 @@ def bolder(found: Recovery, again: Callable[[Clearance], Recovery]) -> Recovery:
         again: The same search with another clearance.
     """
     proved = found.proof_kind in ("reach bound", "boxes", "a pose of the path") and found.given_up is not None
-    settled = proved or found.proof_kind == "disconnected"
+    settled = proved or found.proof_kind in ("start", "disconnected")
     sharp = sharpened(found.clearance, found.margin) if found.ending in _IN_THE_WAY and not settled else None
     if sharp is None:
         return found

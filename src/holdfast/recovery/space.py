@@ -220,6 +220,11 @@ class Space:
         pairs = self.clearance.closest_pair(q[self.clearance.room(q) < self.margin])
         return self.clearance.pair_names[int(np.bincount(pairs).argmax())] if len(pairs) else ""
 
+    def in_the_way(self, start: Array, goal: Array) -> str:
+        """Name what a straight line from a start (n,) to a goal (n,) meets, a clause; empty if it meets nothing."""
+        pair = self.nearest(start + np.linspace(0, 1, 201)[:, None] * self.difference(goal, start))
+        return f"; in the way of the straight line: {pair}" if pair else ""
+
     def difference(self, a: Array, b: Array) -> Array:
         """``a - b`` of the joints that move, the short way round where they turn without limits."""
         return np.where(self.free, joint_space.difference(self.arm, a, b), 0.0)

@@ -14,7 +14,7 @@ from holdfast.caching import cached_property
 from holdfast.cell import solids
 from holdfast.cell.meshes import Mesh, Points
 from holdfast.clearance.capsules import Capsule
-from holdfast.clearance.shape import hull_of
+from holdfast.clearance.shape import corners, hull_of
 from holdfast.kernels.recall import recalled_data
 from holdfast.shapes.pieces import Piece
 
@@ -44,6 +44,7 @@ class Body:
         pose: (4, 4) of its own frame in that of its link, or in the world.
         vertices: (V, 3) m, in its own frame, of a hull or mesh.
         faces: (F, 3) positions in them, counterclockwise seen from outside.
+        filled: The mesh itself, in the same frame, where this is its hull and fills a little of it; else None.
     """
 
     kind: Kind
@@ -51,6 +52,7 @@ class Body:
     pose: Array = field(default_factory=lambda: np.eye(4))
     vertices: Array = field(default_factory=_nothing)
     faces: Triangles = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
+    filled: Body | None = None
 
     def support(self, direction: Array) -> float:
         """How far it reaches along a direction (3,), m; both in its own frame, as everything below."""
@@ -92,7 +94,7 @@ class Body:
             return _nothing(), np.zeros(0)
         if self.kind in ("box", "convex"):
             balls = np.array(_spheres_within(*self.planes, self._corners())).reshape(-1, 4)
-            return balls[:, :3], balls[:, 3]
+            return (balls[:, :3], balls[:, 3]) if self.filled is None else self.filled.spheres_within(balls)
         if self.kind == "ellipsoid":
             return np.zeros((1, 3)), np.array([min(self.size)])
         radius, length = (*self.size, 0.0)[:2]
@@ -101,6 +103,13 @@ class Body:
             length -= 2 * radius
         heights = np.linspace(-length / 2, length / 2, min(int(np.ceil(length / radius)) + 1, _WITHIN))
         return np.column_stack([np.zeros((len(heights), 2)), heights]), np.full(len(heights), radius)
+
+    def spheres_within(self, balls: Array) -> tuple[Array, Array]:
+        """Centres (S, 3) and radii (S,), m, of balls (N, 4) that are inside a mesh, each shrunk until it lies within."""
+        enclosed = balls[[self.encloses(ball[:3]) for ball in balls]]
+        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
+        room = np.array([_distance_to_triangles(ball[:3], a, b, c) for ball in enclosed])
+        return enclosed[:, :3], np.minimum(enclosed[:, 3], room)
 
     def _corners(self) -> Array:
         if self.kind == "box":
@@ -202,8 +211,27 @@ def of_piece(piece: Piece) -> Body:
         return Body(kind=piece.kind, size=piece.size, pose=piece.pose)
     hull = hull_of(piece)
     if hull.convex:
-        return Body(kind="convex", vertices=hull.vertices, faces=hull.faces)
+        mesh = Body(kind="mesh", vertices=corners(piece), faces=piece.faces)
+        filled = None if hull.fills <= _CONVEX else mesh
+        return Body(kind="convex", vertices=hull.vertices, faces=hull.faces, filled=filled)
     return Body(kind="mesh", pose=piece.pose, vertices=piece.vertices, faces=piece.faces)
+
+
+def _distance_to_triangles(point: Array, a: Array, b: Array, c: Array) -> float:
+    """The distance, m, of a point (3,) from the nearest of triangles with corners (F, 3)."""
+    nearest = np.inf
+    normal = np.cross(b - a, c - a)
+    inside = np.ones(len(a), dtype=np.bool_)
+    for start, end in ((a, b), (b, c), (c, a)):
+        edge, away = end - start, point - start
+        along = np.einsum("ij,ij->i", edge, away) / np.maximum(np.einsum("ij,ij->i", edge, edge), 1e-300)
+        gap = away - np.clip(along, 0.0, 1.0)[:, None] * edge
+        nearest = min(nearest, float(np.linalg.norm(gap, axis=1).min()))
+        inside &= np.einsum("ij,ij->i", np.cross(edge, away), normal) >= 0
+    size = np.linalg.norm(normal, axis=1)
+    inside &= size > 0
+    heights = np.abs(np.einsum("ij,ij->i", point - a, normal)[inside]) / size[inside]
+    return min(nearest, float(heights.min(initial=np.inf)))
 
 
 @recalled_data

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -12,11 +13,11 @@ from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh
 from holdfast.cell.solids import Solid
-from holdfast.clearance.capsules import Capsules
+from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.chains import spheres_of
 from holdfast.clearance.exact.bodies import box_about, of_solid, solids_within
 from holdfast.clearance.exact.engines import CONTACT, Engine, for_distances, for_signs
-from holdfast.clearance.exact.meetings import NEAR, Meetings, parts_of, spheres_within
+from holdfast.clearance.exact.meetings import NEAR, Meetings, Part, parts_of, spheres_within
 from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects
 from holdfast.clearance.obstacles import Obstacles
 
@@ -89,6 +90,33 @@ class Exactness:
         bounds[:, at] = -np.inf
         return contacts.any(q, bounds)
 
+    def known_contacts(self, q: Array, margin: float) -> list[str]:
+        """Two things of which the bodies are known and closer than they may be, by name, for each row; empty where none is.
+
+        Meshes count as they are, not as the hulls that stand for them where they are nearly convex.
+
+        Args:
+            q: (N, n) finite.
+            margin: m, beyond what objects keep.
+
+        Raises:
+            HoldfastError: No library for it is installed.
+        """
+        seen = self.obstacles
+        allowed = np.full(len(self._columns), margin)
+        if seen is not None:
+            allowed = np.concatenate([allowed, seen.margins + margin])
+        meetings = self._known_distances if allowed.any() else self._known_signs
+        pairs = meetings.closer(q, self._bounds(q, near=True), allowed)
+        names = [" & ".join(link_name(self.arm, link) for link, _ in links) for links in self._columns]
+        names += [] if seen is None else seen.names
+        return [names[pair] if pair >= 0 else "" for pair in pairs.tolist()]
+
+    @property
+    def parts_known(self) -> bool:
+        """Whether each body is a part of the arm, none a cover or an assumption."""
+        return all(part.known for part in self.parts)
+
     def distances(self, q: Array) -> Array:
         """(N,) the smallest distance, m; 0 where anything touches, NaN for rows that are not finite.
 
@@ -125,22 +153,34 @@ class Exactness:
     def _distances(self) -> Meetings:
         return self._contacts(for_distances())
 
+    @cached_property
+    def _known_signs(self) -> Meetings:
+        return self._known_meetings(for_signs())
+
+    @cached_property
+    def _known_distances(self) -> Meetings:
+        return self._known_meetings(for_distances())
+
+    def _known_meetings(self, engine: Engine) -> Meetings:
+        parts = [replace(part, body=part.body.filled or part.body) for part in self.parts if part.known]
+        between = [_between(parts, *links, self._unchecked) for links in self._columns]
+        return Meetings(self.arm, parts, between, self.obstacles, engine)
+
     def _contacts(self, engine: Engine) -> Meetings:
-        return Meetings(self.arm, self.parts, [self._between(*links) for links in self._columns], self.obstacles, engine)
+        return Meetings(
+            self.arm,
+            self.parts,
+            [_between(self.parts, *links, self._unchecked) for links in self._columns],
+            self.obstacles,
+            engine,
+        )
 
     # ---- pairs of links ------------------------------------------------------------------------------------------
 
-    def _between(self, low: Group, high: Group) -> list[tuple[int, int]]:
-        """Bodies of two links that are checked against each other, by their positions in ``parts``."""
-        shape = self.capsules.shape
-        unchecked = frozenset() if shape is None else shape.unchecked
-        found = []
-        for a, b in product(range(len(self.parts)), repeat=2):
-            one, other = self.parts[a], self.parts[b]
-            names = (min(one.owner, other.owner), max(one.owner, other.owner))
-            if ((one.link, one.held), (other.link, other.held)) == (low, high) and names not in unchecked:
-                found.append((a, b))
-        return found
+    @property
+    def _unchecked(self) -> frozenset[tuple[str, str]]:
+        """Pairs of links of the file that are not checked."""
+        return frozenset() if self.capsules.shape is None else self.capsules.shape.unchecked
 
     def _groups(self, pair: Pair) -> tuple[Group, Group]:
         own = len(self.capsules) - self.capsules.held
@@ -163,7 +203,7 @@ class Exactness:
     @property
     def own_bodies(self) -> list[tuple[list[int], list[tuple[int, int]]]]:
         """Of each two links: their pairs of the clearance, and bodies that are checked, by their positions in ``parts``."""
-        return [(columns, self._between(*links)) for links, columns in self._columns.items()]
+        return [(columns, _between(self.parts, *links, self._unchecked)) for links, columns in self._columns.items()]
 
     # ---- bounds --------------------------------------------------------------------------------------------------
 
@@ -223,3 +263,14 @@ class Exactness:
             return FormulaObjects(self.arm, balls, [], np.zeros((0, 0)))
         added = seen.added(np.unique(balls.link), np.array([k for k, _ in pairs], dtype=np.int64))
         return FormulaObjects(self.arm, balls, [inner for _, inner in pairs], added)
+
+
+def _between(parts: Sequence[Part], low: Group, high: Group, unchecked: frozenset[tuple[str, str]]) -> list[tuple[int, int]]:
+    """Bodies of two links that are checked against each other, by their positions in ``parts``."""
+    found = []
+    for a, b in product(range(len(parts)), repeat=2):
+        one, other = parts[a], parts[b]
+        names = (min(one.owner, other.owner), max(one.owner, other.owner))
+        if ((one.link, one.held), (other.link, other.held)) == (low, high) and names not in unchecked:
+            found.append((a, b))
+    return found

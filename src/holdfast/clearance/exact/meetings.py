@@ -33,12 +33,14 @@ class Part:
         body: With its pose in the frame of the link.
         owner: Name of the link in the arm's file; empty if it is of none.
         held: Whether the arm only holds it.
+        known: Whether the arm is there; False for a capsule that covers a shape which was not read, or is assumed.
     """
 
     link: int
     body: Body
     owner: str = ""
     held: bool = False
+    known: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,11 +72,12 @@ def parts_of(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list[P
     """
     shape, own = capsules.shape, capsules.own
     if shape is None:
-        parts = [Part(part.link, of_capsule(part)) for part in own]
+        given = not (own.covers or own.assumed(arm))
+        parts = [Part(part.link, of_capsule(part), known=given) for part in own]
     else:
         lacking = {item.link for item in shape.missing}
         parts = [Part(piece.link, of_piece(piece), piece.owner) for piece in shape.pieces]
-        parts += [Part(part.link, of_capsule(part)) for part in own if part.link in lacking]
+        parts += [Part(part.link, of_capsule(part), known=False) for part in own if part.link in lacking]
     bodies = [of_solid(solid) for solid in held]
     return parts + [Part(arm.n - 1, replace(body, pose=arm.tool @ body.pose), held=True) for body in bodies]
 
@@ -116,19 +119,33 @@ class Meetings:
             q: (N, n) finite.
             bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
         """
-        found, frames = np.zeros(len(q), dtype=np.bool_), self._frames(q)
-        closer = self._closer(frames, bounds, np.full(len(q), CONTACT))
-        rows, which = np.nonzero(closer < CONTACT)
+        return np.asarray(self.closer(q, bounds, np.zeros(bounds.shape[1])) >= 0)
+
+    def closer(self, q: Array, bounds: Array, allowed: Array) -> Indices:
+        """(N,) a pair that is closer than allowed, by position in the bounds; -1 where none is.
+
+        Args:
+            q: (N, n) finite.
+            bounds: As for :meth:`any`.
+            allowed: (P,) m, of each pair; at 0 the pair may not touch, and below 0 it is not looked at.
+        """
+        found, frames = np.full(len(q), -1), self._frames(q)
+        allowed = allowed[self._pair_of]
+        limit = np.where(allowed < 0, -np.inf, np.maximum(allowed, CONTACT))
+        closer = self._closer(frames, bounds, np.full(len(q), limit.max(initial=CONTACT)))
+        rows, which = np.nonzero(closer < limit)
         order = np.lexsort((closer[rows, which], rows))
         now, there = -1, set[int]()
         for row, k in zip(rows[order].tolist(), which[order].tolist(), strict=True):
-            if found[row]:
+            if found[row] >= 0:
                 continue
             if row != now:
                 now, there = row, set()
             meeting = self._meetings[k]
             self._place(meeting, row, frames, there)
-            found[row] = meeting.opponent.hits(self._placed[meeting.part])
+            part = self._placed[meeting.part]
+            near = meeting.opponent.distance(part) < allowed[k] if allowed[k] > 0 else meeting.opponent.hits(part)
+            found[row] = meeting.pair if near else -1
         return found
 
     def distances(self, q: Array, bounds: Array) -> Array:
@@ -192,10 +209,10 @@ class Meetings:
 
 
 def spheres_within(parts: Sequence[Part]) -> Balls:
-    """Spheres that lie within the bodies of moving links: what they hit, the arm hits."""
+    """Spheres that lie within the known bodies of moving links: what they hit, the arm hits."""
     rows = []
     for number, part in sorted(enumerate(parts), key=lambda item: item[1].link):
-        if part.link > BASE:
+        if part.link > BASE and part.known:
             centres, radii = part.body.inside
             centres = centres @ part.body.pose[:3, :3].T + part.body.pose[:3, 3]
             rows += [(part.link, centre, radius, number) for centre, radius in zip(centres, radii, strict=True)]

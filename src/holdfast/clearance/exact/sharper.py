@@ -22,13 +22,15 @@ _NEAR = 0.02  # m of room: nearer than this the distance is asked for; about wha
 
 
 def sharpened(clearance: Clearance | None, margin: float = 0.0) -> Sharper | None:
-    """The same clearance with exact distances; None without a cell, without a library, and where it is that already.
+    """The same clearance with exact distances; None without a library, and where the distances are exact already.
+
+    Without a cell those of capsules that cover no known shape are.
 
     Args:
         clearance: Whose bound is asked first.
         margin: m, the room that will be asked for.
     """
-    if clearance is None or clearance.cell is None or isinstance(clearance, Sharper):
+    if clearance is None or isinstance(clearance, Sharper) or (clearance.cell is None and clearance.capsules.shape is None):
         return None
     return Sharper(clearance, margin) if installed() else None
 
@@ -65,7 +67,7 @@ class Sharper(Clearance):
     def with_cell(self, cell: Cell | None) -> Clearance:
         """See :meth:`holdfast.Clearance.with_cell`."""
         other = self._bound.with_cell(cell)
-        return other if cell is None else Sharper(other, self._near - _NEAR)
+        return sharpened(other, self._near - _NEAR) or other
 
     def __call__(self, q: ArrayLike) -> Array:
         """See :meth:`holdfast.Clearance.__call__`."""

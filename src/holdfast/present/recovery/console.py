@@ -22,7 +22,7 @@ _ANSWERS = {
     Ending.NOTHING_FOUND: "no configuration of the goal was found, not even with rows given up",
     Ending.PROVED_UNREACHABLE: "the goal is proved out of reach, and no configuration was found with rows given up",
     Ending.START_OUTSIDE_LIMITS: "there is no motion: the arm is outside its limits",
-    Ending.START_TOO_CLOSE: "there is no motion: the arm is already closer to itself or its cell than must be kept",
+    Ending.START_TOO_CLOSE: "there is no motion: the arm, or what covers it, is already too close to itself or its cell",
     Ending.LOCK_ELSEWHERE: "there is no motion: a joint is not where it is said to be locked",
     Ending.START_BREAKS_ROWS: "there is no motion: where the arm is breaks a row that must be kept all the way",
     Ending.PROVED_DISCONNECTED: "configurations of the goal exist, and no motion leads to any of them",

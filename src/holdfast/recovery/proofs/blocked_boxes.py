@@ -132,14 +132,15 @@ def _own_pairs(clearance: Clearance, limits: tuple[Array, Array]) -> list[_Own]:
     found, arm, capsules = [], clearance.arm, clearance.capsules
     if capsules.shape is None:
         slopes, own = clearance.alone.changes(*limits), len(capsules) - capsules.held
-        pairs = [k for k, pair in enumerate(clearance.pairs) if max(pair) < own]
+        known = clearance.exactness.parts_known
+        pairs = [k for k, pair in enumerate(clearance.pairs) if known and max(pair) < own]
         return [_Own(clearance.pair_names[k], [k], slopes[[k]]) for k in pairs]
     parts = clearance.exactness.parts
     for columns, bodies in clearance.exactness.own_bodies:
         balls = [
             (Capsule(parts[a].link, tuple(x), tuple(x), radius=r), Capsule(parts[b].link, tuple(y), tuple(y), radius=s))
             for a, b in bodies
-            if columns and not (parts[a].held or parts[b].held)
+            if columns and parts[a].known and parts[b].known and not (parts[a].held or parts[b].held)
             for x, r in _within(parts[a])
             for y, s in _within(parts[b])
         ]

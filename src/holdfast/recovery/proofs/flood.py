@@ -313,7 +313,7 @@ class _Blocked:
         self._space = space
         seen = None if space.clearance is None else space.clearance.obstacles
         parts: Sequence[Part] = [] if seen is None or space.clearance is None else space.clearance.exactness.parts
-        rows = [(part.link, *ball) for part in parts if part.link > BASE for ball in _balls(part)]
+        rows = [(part.link, *ball) for part in parts if part.link > BASE and part.known for ball in _balls(part)]
         self._radius = np.array([radius for _, _, radius in rows])
         self._points = _Points(
             np.array([link for link, _, _ in rows]), np.array([centre for _, centre, _ in rows]).reshape(-1, 3)

@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, plane_normal
 from holdfast.clearance.clearance import Clearance
+from holdfast.clearance.exact.certainty import certain_contacts
 from holdfast.enclosure import Configurations, Finding, all_configurations
 from holdfast.enclosure.box_bounds import Parts, idle
 from holdfast.enclosure.boxes import Blocked
-from holdfast.errors import HoldfastError, TaskError
+from holdfast.errors import TaskError
 from holdfast.failures import Degraded
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import RowSolver
@@ -133,12 +134,9 @@ def proved_by(found: Configurations | None, clearance: Clearance | None, what: s
         return f"no configuration within the limits meets it, by {found.boxes:,} boxes of joints, up to floating point"
     if found.lower[-1] < found.upper[-1] and idle(found.arm, Parts.of(found.arm, found.task)):
         return None  # the last joint was looked at in one place, and its turn may clear what touches
-    try:
-        if clearance is None or clearance.sign(found.q).any():
-            return None
-    except HoldfastError:  # no library for exact signs is installed
+    if clearance is None or not all(certain_contacts(clearance, found.q)):
         return None
-    return f"each of its {len(found.q)} configurations touches something, by {found.boxes:,} boxes of joints and the exact sign"
+    return f"each of its {len(found.q)} configurations touches something, by {found.boxes:,} boxes of joints and exact geometry"
 
 
 # ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------
