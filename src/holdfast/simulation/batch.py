@@ -21,7 +21,7 @@ from holdfast.kernels.recall import recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.notice import Count, unheard
 from holdfast.simulation.cycles import SUBSTEPS, Cycles
-from holdfast.simulation.endless_motion import circling
+from holdfast.simulation.endless_motion import find_endless
 from holdfast.simulation.residual import Nearest
 from holdfast.simulation.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs, Setting
@@ -138,18 +138,18 @@ class Motion:
         else:
             hand = np.full(target.shape, np.nan)
             hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
-        code, reason = self._verdict(own_units(self.law, error, hand, target), parts)
-        code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
+        code, reason, lively = self._verdict(own_units(self.law, error, hand, target), parts)
+        code[~good], reason[~good], lively[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT, False
         if flips:
             # A tight tolerance shrinks the steps to nothing there, as a singular configuration does.
             rows = np.flatnonzero(np.isin(reason, (Reason.STEPS, Reason.SINGULAR)))
             reason[rows[self._half_turn(q[rows], target[rows, :3, 3], target[rows, :3, :3])]] = Reason.HALF_TURN
         if isinstance(self._steps, Steps):
-            rows = np.flatnonzero(reason == Reason.STEPS)
+            rows = np.flatnonzero((reason == Reason.STEPS) | lively)
             given = self._parameters(numbers[rows], setting)
             given[:, -self.law.arm.n - 3 : -3] = lock_time[rows] * self._unit > parts["time"][rows]
-            circles = rows[circling(self._steps, states[rows], given, ~self.law.arm.prismatic, MOVES)]
-            code[circles], reason[circles] = Outcome.MOVING, Reason.NONE
+            endless = rows[find_endless(self._steps, states[rows], given, ~self.law.arm.prismatic, MOVES)]
+            code[endless], reason[endless] = Outcome.MOVING, Reason.NONE
         return {
             "code": code,
             "reason": reason,
@@ -201,18 +201,20 @@ class Motion:
         """Units of time of a state in one second or cycle."""
         return 1.0 if self.cycles else self.law.gain
 
-    def _verdict(self, scaled: Array, parts: dict[str, Array]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    def _verdict(
+        self, scaled: Array, parts: dict[str, Array]
+    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.bool_]]:
+        """Outcomes and reasons, and which runs are fast enough at the time limit to look for a limit cycle."""
         codes = parts["code"][:, 0]
         slowest, early, late = (parts[name][:, 0] for name in ("slowest", "early", "late"))
-        moving = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
+        lively = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
         converged = (codes == ARRIVED) | ((codes == REST) & (scaled < ARRIVES) & (not self.cycles))
         stuck = (codes == REST) & ~converged
-        outcome = np.select([converged, stuck, moving], [Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING], Outcome.UNDECIDED)
+        outcome = np.select([converged, stuck], [Outcome.CONVERGED, Outcome.STUCK], Outcome.UNDECIDED)
         reason = np.select(
-            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.SLOW, Reason.STEPS], 0
+            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.TIME_LIMIT, Reason.STEPS], 0
         )
-        reason[outcome != Outcome.UNDECIDED] = Reason.NONE
-        return outcome.astype(np.uint8), reason.astype(np.uint8)
+        return outcome.astype(np.uint8), reason.astype(np.uint8), lively
 
     def _phases(self, q0: Array, target: Array, lock_time: Array, setting: Setting, advance: Advance) -> Array:
         """States at the end. Between two locks nothing changes: such a phase is one loop."""

@@ -57,7 +57,7 @@ class Reason(IntEnum):
 
     NONE = 0
     SINGULAR = 1
-    SLOW = 2
+    TIME_LIMIT = 2
     STEPS = 3
     BAD_INPUT = 4
     HALF_TURN = 5
@@ -72,7 +72,7 @@ class Reason(IntEnum):
 _SENTENCES = {
     Reason.NONE: "decided",
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
-    Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet stop: give a longer time_limit",
+    Reason.TIME_LIMIT: "the time limit came while the arm crept or slowed down, so it may yet stop: give a longer time_limit",
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.HALF_TURN: (
         "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "
