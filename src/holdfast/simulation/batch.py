@@ -25,7 +25,7 @@ from holdfast.simulation.endless_motion import find_endless
 from holdfast.simulation.residual import Nearest
 from holdfast.simulation.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs, Setting
-from holdfast.simulation.system import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, own_units
+from holdfast.simulation.system import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, own_units, split_errors
 from holdfast.simulation.tableaus import CLASSIC, DOP853
 from holdfast.solvers.inverse_kinematics import tool_error
 
@@ -290,15 +290,15 @@ class Motion:
 
     # ---- on demand -----------------------------------------------------------------------------------------------
 
-    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array:
-        """See :meth:`Runs.least_error`."""
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
+        """Find the least error (N,) that each arm can have, and a configuration (N, n) that has it; NaN for bad input."""
         q, poses = np.atleast_2d(runs.q_final), self._poses(runs)
         mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
         good = np.isfinite(q).all(axis=1)
-        least = np.full(len(q), np.nan)
+        least, nearest = np.full(len(q), np.nan), np.full(q.shape, np.nan)
         parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), mask], axis=1)
-        least[good] = self._nearest.search(q[good], parameters[good], restarts, generator)
-        return least
+        least[good], nearest[good] = self._nearest.search(q[good], parameters[good], restarts, generator)
+        return least, nearest
 
     def _poses(self, runs: Runs) -> Array:
         """Targets (N, 4, 4)."""
@@ -316,12 +316,22 @@ class Motion:
             if not (np.isfinite(until) and until > 0):
                 raise InputError(f"until is {until:g}; it must be a finite number above 0")
             end = min(end, float(until))
-        _, at = self.recorded(runs, k, end)
-        time = np.linspace(0.0, end, samples)
-        q, pose = at(time), self._poses(runs)[k]
-        error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
+        return self.sampled(runs, k, self.recorded(runs, k, end)[1], np.linspace(0.0, end, samples))
+
+    def sampled(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path:
+        """Sample run k, as :meth:`recorded` returned it, at times (T,)."""
+        q = at(time)
+        position, angle = self.errors(runs, k, q)
         locked = time[:, None] >= np.atleast_2d(runs.lock_time)[k]
-        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error=error, locked=locked)
+        tool = self.law.arm.forward_kinematics(q)[:, :3, 3]
+        return Path(
+            time, q, tool, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked
+        )
+
+    def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]:
+        """Compute the position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) from the target of run k."""
+        target = np.broadcast_to(self._poses(runs)[k], (len(q), 4, 4))
+        return split_errors(self.law, self._nearest.errors(q, target), self.law.arm.forward_kinematics(q), target)
 
     def recorded(self, runs: Runs, k: int, end: float) -> tuple[Array, Callable[[Array], Array]]:
         """Run k again up to a time, s or cycles: when its steps began (S,), and the motion (T, n) at any times (T,)."""

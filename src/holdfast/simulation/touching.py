@@ -14,7 +14,7 @@ from holdfast.simulation.runs import Outcome, Reason, Runs
 
 Array = NDArray[np.float64]
 
-ENDLESS = 200.0  # 1/Ke: so far a run is looked at that never stops
+CHECKED = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
 
 _ENDS = ("code", "q_final", "x_final", "error", "closest", "path_length", "q_low", "q_high", "limits_passed", "time")
 
@@ -28,7 +28,7 @@ def with_contacts(runs: Runs, clearance: Clearance, stop: bool) -> Runs:
     for k in each("runs looked at for contacts", range(len(runs))):
         if runs.reason[k] != Reason.BAD_INPUT:
             circles = runs.code[k] == Outcome.MOVING and not runs.cycles
-            end = min(float(runs.time[k]), ENDLESS / runs.law.gain if circles else np.inf)
+            end = min(float(runs.time[k]), CHECKED / runs.law.gain if circles else np.inf)
             time, at = runs._motion.recorded(runs, k, end)
             time = np.unique(np.minimum(time, end))
             found += [replace(contact, run=k) for contact in first_contacts(clearance, time, at(time), at)]
