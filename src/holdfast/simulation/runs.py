@@ -27,6 +27,9 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
+CHECKED = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
+
+
 class Outcome(IntEnum):
     """How one run ended."""
 
@@ -218,6 +221,11 @@ class Runs(Result):
         """``s``, or ``cycles``."""
         return "cycles" if self.cycles else "s"
 
+    def checked_until(self, k: int = 0) -> float:
+        """Return the time up to which run k is checked for contacts, s or cycles: its end, unless it repeats its motion."""
+        end, repeats = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == Outcome.MOVING
+        return min(end, CHECKED / self.law.gain) if repeats else end
+
     def counts(self) -> dict[str, int]:
         """How many runs ended in each way."""
         found = np.bincount(np.atleast_1d(self.code), minlength=len(Outcome))
@@ -303,8 +311,11 @@ class Runs(Result):
             return f"{touching} of them touch something on the way" + (f" ({what}, all runs together)" if what else "")
         own = [c for c in self.contacts if c.run == (k or 0)]
         if not own:
+            whole, checked = float(np.atleast_1d(self.time)[k or 0]), self.checked_until(k or 0)
+            if checked < whole:
+                return f"The arm touches nothing in the first {checked:g} s; its motion after them was not checked."
             return "The arm touches nothing on the way."
-        unit, ends = "cycles" if self.cycles else "s", self.stopped is not None
+        unit, ends = self.unit, self.stopped is not None
         more = "" if len(own) == 1 else f", the first of {len(own)} contacts"
         return f"{capitalised(own[0].sentence(unit))}{more}{': the run is stopped there' if ends else ''}."
 
