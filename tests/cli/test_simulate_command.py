@@ -26,6 +26,7 @@ def test_json_is_the_published_case_c(cli):
     assert data["outcome"] == "stuck"
     assert data["reason"] == "none"
     assert data["error"] == pytest.approx(1.133893, abs=1e-5)
+    assert data["position_error_m"]["end"] == pytest.approx(1.133893, abs=1e-5)
     assert data["least_error"] == pytest.approx(1, abs=1e-6)
     assert len(data["locked"]) == 1
     assert list(data["locked"].values()) == [0]
@@ -42,7 +43,7 @@ def test_a_motion_is_printed_written_and_drawn(cli, tmp_path):
     rows = np.loadtxt(table, delimiter=",", skiprows=1)
     assert table.read_text().startswith("time_s,")
     assert rows.shape == (1001, 7)
-    assert rows[-1, -1] < 1e-5
+    assert rows[-1, -1] < 1e-2  # mm
     assert (rows[:, 1] == 0).all()
     assert matplotlib.image.imread(figure).shape[1] > 600
 
@@ -54,13 +55,13 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
     page = (out / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
-    assert "joint1 at the start that its controller does not know of, the arm stops 1.134 m off its target" in page
+    assert "joint1 at the start that its controller does not know of, the arm stops 1,134 mm off its target" in page
     assert "locked: joint1" in page
     data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page)[1])
     assert data["locked"] == [0, None]
     assert "holdfast simulate planar-2r" in page
     assert matplotlib.image.imread(out / "run.png").shape[1] > 900
-    assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1.133893, abs=1e-5)
+    assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1133.893, abs=1e-2)
 
 
 PAST = ["simulate", "panda", "--task", "position", "--start", "0 -45 0 -135 0 90 45", "--degrees", "--lock", "4"]

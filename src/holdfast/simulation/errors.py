@@ -37,7 +37,7 @@ class ErrorHistory:
     Attributes:
         lock_time: Time of the first lock, s or cycles; 0 where no joint locks.
         end: The last error.
-        closest: The error where the norm that the law reduces was least.
+        least_position, least_angle: The errors where the distance, and where the angle, was least, over the whole run.
         largest_position: The error where the distance was largest, from the first lock on.
         largest_angle: The error where the angle was largest, from the first lock on.
         later: The errors 1, 10, and 60 s (or cycles) after the first lock, as far as the run is known then.
@@ -45,7 +45,8 @@ class ErrorHistory:
 
     lock_time: float
     end: ErrorAt
-    closest: ErrorAt
+    least_position: ErrorAt
+    least_angle: ErrorAt
     largest_position: ErrorAt
     largest_angle: ErrorAt
     later: tuple[ErrorAt, ...]
@@ -76,10 +77,14 @@ def error_history(runs: Runs, k: int = 0) -> ErrorHistory:
     def largest(values: Array) -> ErrorAt:
         return error_at(int(np.argmax(np.where(after, values, -np.inf))))
 
+    def least(values: Array) -> ErrorAt:
+        return error_at(int(np.argmin(np.where(within, values, np.inf))))
+
     return ErrorHistory(
         lock_time=lock,
         end=error_at(int(np.flatnonzero(within)[-1])),
-        closest=error_at(int(np.argmin(np.where(within, path.error, np.inf)))),
+        least_position=least(path.position_error),
+        least_angle=least(path.angle_error),
         largest_position=largest(path.position_error),
         largest_angle=largest(path.angle_error),
         later=tuple(error_at(int(np.searchsorted(time, t))) for t in later),

@@ -40,7 +40,8 @@ def error_rows(runs: Runs, history: ErrorHistory, k: int = 0) -> list[tuple[str,
         )
     rows += [(f"error {delay_of(e, history)} {unit} {since}", at(e)) for e in history.later]
     rows.append(("least error that the failed arm can have", f"{error_text(law, *least_errors(runs, k))}, as far as was found"))
-    rows.append(("least error on the way", at(history.closest)))
+    closest = error_text(law, history.least_position.position, history.least_angle.angle)
+    rows.append(("least error on the way" + ", each for itself" * (" and " in closest), closest))
     return rows
 
 

@@ -119,7 +119,7 @@ class _RunReport:
         whole, end = self.path, float(self._of("time"))
         if self._of("code") == Outcome.MOVING:
             end = min(end, REPEATED / self.runs.law.gain)
-        else:
+        elif self._of("code") != Outcome.UNDECIDED:
             away = np.flatnonzero((np.abs(whole.q - whole.q[-1]) > _STILL).any(axis=1))
             if away.size:
                 end = min(1.03 * float(whole.time[min(away[-1] + 1, len(whole.time) - 1)]), end)
@@ -254,7 +254,7 @@ class _RunReport:
                 sections,
                 subtitle=f"{law}; locked: {', '.join(self.standing) or 'no joint'}",
                 facts=self._facts(),
-                method=how(self.arm, ("Law", law), ("Drawn", self.omitted or "the whole run")),
+                method=how(self.arm, ("Law", law), ("Drawn", self.omitted or "The whole run.")),
                 again=command,
             ),
             file,
