@@ -101,7 +101,12 @@ def test_how_a_run_ended(outcome):
     reason = Reason.TIME_LIMIT if outcome == Outcome.UNDECIDED else Reason.NONE
     run = _RunReport(replace(runs, code=np.uint8(outcome), reason=np.uint8(reason)))
     says_something(run.headline)
-    told = {"CONVERGED": "reaches its target", "STUCK": "stops", "MOVING": "never stops", "UNDECIDED": "still moving at the limit of"}
+    told = {
+        "CONVERGED": "reaches its target",
+        "STUCK": "stops",
+        "MOVING": "never stops",
+        "UNDECIDED": "still moving at the limit of",
+    }
     assert told[outcome.name] in run.headline
 
 

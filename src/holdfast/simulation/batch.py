@@ -25,7 +25,19 @@ from holdfast.simulation.endless_motion import find_endless
 from holdfast.simulation.residual import Nearest
 from holdfast.simulation.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs, Setting
-from holdfast.simulation.system import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, own_units, split_errors
+from holdfast.simulation.system import (
+    ARRIVED,
+    COLLAPSE,
+    FAR,
+    PHASE,
+    REST,
+    RUNNING,
+    TIME,
+    System,
+    known_at,
+    own_units,
+    split_errors,
+)
 from holdfast.simulation.tableaus import CLASSIC, DOP853
 from holdfast.solvers.inverse_kinematics import tool_error
 
@@ -324,9 +336,7 @@ class Motion:
         position, angle = self.errors(runs, k, q)
         locked = time[:, None] >= np.atleast_2d(runs.lock_time)[k]
         tool = self.law.arm.forward_kinematics(q)[:, :3, 3]
-        return Path(
-            time, q, tool, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked
-        )
+        return Path(time, q, tool, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked)
 
     def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]:
         """Compute the position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) from the target of run k."""

@@ -61,9 +61,7 @@ class Nearest:
         """(N,) norms of the task's error, m and rad."""
         return self._error.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
-    def search(
-        self, q: Array, parameters: Array, restarts: int, generator: np.random.Generator
-    ) -> tuple[Array, Array]:
+    def search(self, q: Array, parameters: Array, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
         """Find the least norms of the error (N,) from q (N, n) and from random values of the healthy joints.
 
         Returns:

@@ -81,8 +81,8 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         InputError: A law that is not known, or no target.
     """
     from holdfast.arm.poses import pose_of
-    from holdfast.simulation.closed_loop import simulate
     from holdfast.present.simulation.errors import error_text
+    from holdfast.simulation.closed_loop import simulate
     from holdfast.simulation.errors import error_history
 
     if state.target is None:

@@ -31,12 +31,18 @@ def error_rows(runs: Runs, history: ErrorHistory, k: int = 0) -> list[tuple[str,
     if law.task.rows[:, :3].any():
         largest = history.largest_position
         rows.append(
-            (f"largest distance from the target {since}", f"{number(1000 * largest.position)} mm, at {number(largest.time)} {unit}")
+            (
+                f"largest distance from the target {since}",
+                f"{number(1000 * largest.position)} mm, at {number(largest.time)} {unit}",
+            )
         )
     if law.task.angular:
         largest = history.largest_angle
         rows.append(
-            (f"largest angle from the target {since}", f"{number(np.rad2deg(largest.angle))}°, at {number(largest.time)} {unit}")
+            (
+                f"largest angle from the target {since}",
+                f"{number(np.rad2deg(largest.angle))}°, at {number(largest.time)} {unit}",
+            )
         )
     rows += [(f"error {delay_of(e, history)} {unit} {since}", at(e)) for e in history.later]
     rows.append(("least error that the failed arm can have", f"{error_text(law, *least_errors(runs, k))}, as far as was found"))

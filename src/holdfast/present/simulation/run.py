@@ -131,7 +131,9 @@ class _RunReport:
         shown, whole = float(self.seen.time[-1]), float(self._of("time"))
         if shown >= 0.99 * whole:
             return ""
-        rest = "the arm repeats its motion" if self._of("code") == Outcome.MOVING else "no joint moves by more than 0.001 rad or m"
+        rest = (
+            "the arm repeats its motion" if self._of("code") == Outcome.MOVING else "no joint moves by more than 0.001 rad or m"
+        )
         return f"Drawn are the first {number(shown)} of {number(whole)} {self.unit}; after them {rest}."
 
     @property
@@ -167,7 +169,11 @@ class _RunReport:
         errors, since = self.errors, "after the lock" if self.standing else "after the start"
         measures = [
             (errors.end.position, errors.end.angle, "off the target at the end"),
-            (errors.largest_position.position, errors.largest_angle.angle, f"largest distance and angle from the target {since}"),
+            (
+                errors.largest_position.position,
+                errors.largest_angle.angle,
+                f"largest distance and angle from the target {since}",
+            ),
             (*self.least, "the least error that the failed arm can have, as far as was found"),
         ]
         facts = [(self._text(x, y), words) for x, y, words in measures if max(x, y) > _REACHED]
@@ -266,7 +272,9 @@ class _RunReport:
         for k in self.few:
             locked = names[seen.locked[k]]
             standing = f", locked: {', '.join(locked)}" if locked.size else ""
-            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {self._text(float(seen.position_error[k]), float(seen.angle_error[k]))}{standing}")
+            readings.append(
+                f"{seen.time[k]:.2f} {self.unit}, error {self._text(float(seen.position_error[k]), float(seen.angle_error[k]))}{standing}"
+            )
         shown = scene(
             self.arm,
             seen.q[self.few],
