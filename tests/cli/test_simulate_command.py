@@ -10,6 +10,7 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -149,3 +150,33 @@ def test_wrong_input_is_one_sentence(cli, arguments, words):
     assert out == ""
     assert words in err
     assert "Traceback" not in err
+
+
+def test_a_target_by_angles_is_that_by_a_quaternion(cli):
+    """SciPy converts; degrees, in the order of URDF."""
+    angles = [170.0, 10.0, 40.0]
+    quaternion = Rotation.from_euler("xyz", angles, degrees=True).as_quat()
+    words = ["simulate", "panda", "--start", "0 -45 0 -135 0 90 45", "--degrees", "--lock", "4", "--time-limit", "20", "--json"]
+    finals = []
+    for numbers in (angles, quaternion):
+        code, out, err = cli(*words, f"--target=0.45,0.1,0.5,{','.join(repr(float(x)) for x in numbers)}")
+        assert (code, err) == (0, "")
+        finals.append(list(json.loads(out)["q_final"].values()))
+    np.testing.assert_allclose(*finals, atol=1e-7)
+
+
+def test_a_lock_with_bounds_is_a_fault_of_the_robot(cli, monkeypatch, tmp_path):
+    """With --physics and --record or --notice, --lock is a locked fault, as a faults file would have it."""
+    asked = {}
+
+    class StoppedError(Exception):
+        pass
+
+    def simulate_faults(*_, **options):
+        asked.update(options)
+        raise StoppedError
+
+    monkeypatch.setattr(hf, "simulate_faults", simulate_faults)
+    with pytest.raises(StoppedError):
+        cli(*CALL, "--target", "1.5,0.5", "--lock", "2@0.8", "--physics", "--record", tmp_path / "a.npz")
+    assert [(e.kind, e.joint, e.onset) for e in asked["faults"]] == [("locked", "joint1", 0.0), ("locked", "joint2", 0.8)]

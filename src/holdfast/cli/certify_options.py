@@ -40,9 +40,7 @@ class Targets:
         str | None,
         "Roll, pitch and yaw of the tool at every target, degrees: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
     ] = None
-    rotation_size: Annotated[str | None, "Edges of a box around --rotation, degrees: one number, or three. Default: none."] = (
-        None
-    )
+    rotation_size: Annotated[str | None, "Edges of a box around --rotation, degrees: one number or three. Default: 0."] = None
     pointing: Annotated[bool, "Of --rotation only where the tool's z axis points counts, not its turn about it."] = False
 
     def read(self) -> dict[str, Any]:

@@ -35,7 +35,8 @@ class PhysicalRun(Result):
         stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for prismatic joints).
         kinematic: The same run of :func:`holdfast.simulation.simulate`.
         outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
-        reason: Why it is undecided: ``singular``, ``time_limit`` or ``unstable``; ``contact`` if an object holds it; else ``none``.
+        reason: Why it is undecided: ``singular``, ``time_limit`` or ``unstable``; ``contact`` if an object holds it; else
+            ``none``.
         time: (T,) s.
         q: (T, n) measured configuration, rad and m.
         reference: (T, n) what the servos are to follow, rad and m.

@@ -72,9 +72,10 @@ def rotations_in_cone(axis: Array, samples: Array) -> Array:
 
 @dataclass(frozen=True)
 class Region(Shown):
-    """A distribution of poses (a box in position and angles, a cone, a list, a function) or of configurations (a box in the joints).
+    """A distribution of poses (a box, a cone, a list, a function) or of configurations (a box in the joints).
 
-    Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its own seed,
+    Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its
+    own seed,
     so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have weights
     where the robot works more; statistics are then of the weights.
 
@@ -123,7 +124,8 @@ class Region(Shown):
                 leave +-90 degrees.
             name: For reports.
             weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, then the
-                angles about z, y, and x (yaw, pitch, roll) in m and rad, that gives (N,); a results folder cannot hold it. Or points by coordinate, which
+                angles about z, y, and x (yaw, pitch, roll) in m and rad, that gives (N,); a results folder cannot hold it.
+                Or points by coordinate, which
                 it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant beyond them; several
                 coordinates are multiplied.
             order: Convention of roll, pitch, yaw: ``urdf``, or ``abdi`` for ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of
@@ -508,7 +510,9 @@ class Region(Shown):
         try:
             if kind == "poses":
                 return cls(kind, (), (), **given)
-            return {"box": cls.box, "cone": cls.cone, "joints": cls.joints}[kind](**given)
+            if kind == "cone":
+                return cls.cone(**given)
+            return cls.box(**given) if kind == "box" else cls.joints(**given)
         except InputError as error:
             raise InputError(f"region file '{file}': {error}") from error
 

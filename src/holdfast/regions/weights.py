@@ -48,7 +48,8 @@ class Density:
     Beyond its outermost points a function keeps its last value.
 
     Attributes:
-        pieces: Name of the coordinate (``x, y, z``, m, ``roll, pitch, yaw`` as Abdi et al. 2012, rad) and its (coordinate, weight) points.
+        pieces: Name of the coordinate (``x, y, z``, m, ``roll, pitch, yaw`` as Abdi et al. 2012, rad) and its
+            (coordinate, weight) points.
     """
 
     pieces: tuple[tuple[str, tuple[tuple[float, float], ...]], ...]

@@ -339,7 +339,7 @@ class Motion:
         return Path(time, q, tool, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked)
 
     def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]:
-        """Compute the position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) from the target of run k."""
+        """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k."""
         target = np.broadcast_to(self._poses(runs)[k], (len(q), 4, 4))
         return split_errors(self.law, self._nearest.errors(q, target), self.law.arm.forward_kinematics(q), target)
 

@@ -75,7 +75,7 @@ class Reason(IntEnum):
 _SENTENCES = {
     Reason.NONE: "decided",
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
-    Reason.TIME_LIMIT: "the arm was still moving at the time limit and was not found to repeat its motion: give a longer time_limit",
+    Reason.TIME_LIMIT: "still moving at the time limit, and not found to repeat the motion: give a longer time_limit",
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.HALF_TURN: (
         "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "

@@ -26,13 +26,8 @@ def key_table(region: Region) -> Rows:
         return Rows(["", ""], [["poses", f"{len(region.listed):,}"]])
     if region.draw is not None:
         return Rows(["", ""], [["drawn by", getattr(region.draw[0], "__name__", "a function")]])
-    named = (
-        _BOX
-        if region.kind == "box"
-        else _CONE
-        if region.kind == "cone"
-        else [(f"joint {k + 1}", "") for k in range(len(region.center))]
-    )
+    joints = [(f"joint {k + 1}", "") for k in range(len(region.center))]
+    named = {"box": _BOX, "cone": _CONE}.get(region.kind, joints)
     rows = []
     for (name, unit), center, size in zip(named, region.center, region.size, strict=True):
         ends = np.array([center - size / 2, center + size / 2])

@@ -272,9 +272,8 @@ class _RunReport:
         for k in self.few:
             locked = names[seen.locked[k]]
             standing = f", locked: {', '.join(locked)}" if locked.size else ""
-            readings.append(
-                f"{seen.time[k]:.2f} {self.unit}, error {self._text(float(seen.position_error[k]), float(seen.angle_error[k]))}{standing}"
-            )
+            error = self._text(float(seen.position_error[k]), float(seen.angle_error[k]))
+            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {error}{standing}")
         shown = scene(
             self.arm,
             seen.q[self.few],
