@@ -28,7 +28,7 @@ import harness
 Array = np.ndarray
 Rates = Callable[[Any, Any, Any], Array]  # configuration, target and mask -> joint rates for Ke = 1
 
-REST, ARRIVES, MOVES, DECAYS, LIMIT = 1e-8, 1e-5, 1e-3, 0.99, 3000.0  # the stated rule
+REST, ARRIVES, MOVES, DECAYS, LIMIT = 1e-8, 1e-5, 1e-3, 0.99, 3000.0  # the stated rule; holdfast also looks for a return
 MOST = 600_000  # evaluations, then the reference gives up
 SEED = 20050401
 

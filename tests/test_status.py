@@ -46,7 +46,7 @@ def test_the_numbers_of_motions_do_not_change(kind):
     """Those of outcomes, reasons and ends are in studies and records; each says in a sentence of its own what it means."""
     names = {
         Outcome: "CONVERGED STUCK MOVING UNDECIDED",
-        Reason: "NONE SINGULAR SLOW STEPS BAD_INPUT HALF_TURN CONTACT",
+        Reason: "NONE SINGULAR TIME_LIMIT STEPS BAD_INPUT HALF_TURN CONTACT",
         Ending: "HOME HOME_WITH_ROWS_GIVEN_UP PATH_UNFINISHED NO_ROUTE_FOUND NOTHING_FOUND PROVED_UNREACHABLE "
         "START_OUTSIDE_LIMITS START_TOO_CLOSE LOCK_ELSEWHERE START_BREAKS_ROWS PROVED_DISCONNECTED",
         End: "ARRIVED STILL TIME ABORTED BROKEN_OFF",

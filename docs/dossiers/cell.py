@@ -14,7 +14,7 @@ from holdfast.probability import Difference
 NAMES = ("panda", "xarm7")
 FINGERS = 0.1034  # m from flange to fingertips, as in the model of the panda's hand; the xarm7's model ends at its flange
 NEEDED = 0.05  # relative manipulability that the work needs, whichever joint locks
-BOX = {"center": [0.45, 0, 0.3], "size": 0.4, "rpy_center": [0, 0, np.pi], "rpy_size": np.radians(20)}  # m, rad; tool down
+BOX = {"center": [0.45, 0, 0.3], "size": 0.4, "rpy_center": [np.pi, 0, 0], "rpy_size": np.radians(20)}  # m, rad; tool down
 
 
 def better(shares):

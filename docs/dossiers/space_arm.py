@@ -27,7 +27,7 @@ TOOL, LIMIT = (1.3589, 0, 0), np.radians(270)  # m from the last joint to the en
 BACK = np.array([0, np.pi, 0])  # the end effector looks back at the wall (x = 0) that carries the arm, at the origin
 WORK = {  # what is asked of it: rows of the pose that count, and where: m, rad
     "berth a vehicle": ("pose", hf.Region.box([3, 6, 0], [2, 3, 3], BACK, np.radians(40))),
-    "step onto a fixture": ("pose", hf.Region.box([0, 4, 0], 0.0, BACK, [0, 0, 2 * np.pi])),
+    "step onto a fixture": ("pose", hf.Region.box([0, 4, 0], 0.0, BACK, [2 * np.pi, 0, 0])),
     "reach": ("position", hf.Region.box([6, 0, 0], [12, 24, 24])),
 }
 STEP = 15  # deg

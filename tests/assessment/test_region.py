@@ -245,7 +245,7 @@ def test_description_is_in_metres_and_degrees():
         "(0.968, 0, 0.041) m",
         "90 x 90 x 90 deg",
         "(0, 174, 0) deg",
-        "Rz(roll) Ry(pitch) Rx(yaw)",
+        "Rz(yaw) Ry(pitch) Rx(roll)",
     ):
         assert part in text
     assert "3 joints" in JOINTS.describe()

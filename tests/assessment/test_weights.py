@@ -375,7 +375,7 @@ def test_a_density_in_a_file(tmp_path):
     expected = (1 + 4 * np.clip(x[:, 2], 0, 0.5)) * (x[:, 5] / (np.pi / 2) + 0.5)
     np.testing.assert_allclose(region.weights(x), expected, atol=1e-12)
     assert Region.from_dict(json.loads(json.dumps(region.to_dict()))) == region
-    assert "weight by z 1 at 0 m, 3 at 0.5 m; yaw 0 at -45 deg, 1 at 45 deg; linear between" in region.describe()
+    assert "weight by z 1 at 0 m, 3 at 0.5 m; roll 0 at -45 deg, 1 at 45 deg; linear between" in region.describe()
     (tmp_path / "b.yaml").write_text(region_file(region))
     np.testing.assert_allclose(Region.load(tmp_path / "b.yaml").weights(x), region.weights(x), rtol=1e-14)
 

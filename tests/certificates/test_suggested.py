@@ -11,7 +11,7 @@ from holdfast.errors import InputError
 
 
 def test_every_pose_of_the_region_is_a_target(panda):
-    region = hf.Region.box([0.5, 0.1, 0.5], [0.05, 0.04, 0], [0.2, 0.1, np.pi], [0.02, 0.04, 0.06])
+    region = hf.Region.box([0.5, 0.1, 0.5], [0.05, 0.04, 0], [0.2, 0.1, np.pi], [0.02, 0.04, 0.06], order="abdi")
     task = hf.indices.relative_manipulability(panda, "pose").task
     claim = region_claim(panda, region, task, 0)
     for pose in region.poses(next(region.blocks(0, 1))[:50]):

@@ -10,6 +10,7 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -26,6 +27,7 @@ def test_json_is_the_published_case_c(cli):
     assert data["outcome"] == "stuck"
     assert data["reason"] == "none"
     assert data["error"] == pytest.approx(1.133893, abs=1e-5)
+    assert data["position_error_m"]["end"] == pytest.approx(1.133893, abs=1e-5)
     assert data["least_error"] == pytest.approx(1, abs=1e-6)
     assert len(data["locked"]) == 1
     assert list(data["locked"].values()) == [0]
@@ -42,7 +44,7 @@ def test_a_motion_is_printed_written_and_drawn(cli, tmp_path):
     rows = np.loadtxt(table, delimiter=",", skiprows=1)
     assert table.read_text().startswith("time_s,")
     assert rows.shape == (1001, 7)
-    assert rows[-1, -1] < 1e-5
+    assert rows[-1, -1] < 1e-2  # mm
     assert (rows[:, 1] == 0).all()
     assert matplotlib.image.imread(figure).shape[1] > 600
 
@@ -54,13 +56,13 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
     page = (out / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
-    assert "joint1 at the start that its controller does not know of, the arm stops 1.134 m off its target" in page
+    assert "joint1 at the start that its controller does not know of, the arm stops 1,134 mm off its target" in page
     assert "locked: joint1" in page
     data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page)[1])
     assert data["locked"] == [0, None]
     assert "holdfast simulate planar-2r" in page
     assert matplotlib.image.imread(out / "run.png").shape[1] > 900
-    assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1.133893, abs=1e-5)
+    assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1133.893, abs=1e-2)
 
 
 PAST = ["simulate", "panda", "--task", "position", "--start", "0 -45 0 -135 0 90 45", "--degrees", "--lock", "4"]
@@ -148,3 +150,33 @@ def test_wrong_input_is_one_sentence(cli, arguments, words):
     assert out == ""
     assert words in err
     assert "Traceback" not in err
+
+
+def test_a_target_by_angles_is_that_by_a_quaternion(cli):
+    """SciPy converts; degrees, in the order of URDF."""
+    angles = [170.0, 10.0, 40.0]
+    quaternion = Rotation.from_euler("xyz", angles, degrees=True).as_quat()
+    words = ["simulate", "panda", "--start", "0 -45 0 -135 0 90 45", "--degrees", "--lock", "4", "--time-limit", "20", "--json"]
+    finals = []
+    for numbers in (angles, quaternion):
+        code, out, err = cli(*words, f"--target=0.45,0.1,0.5,{','.join(repr(float(x)) for x in numbers)}")
+        assert (code, err) == (0, "")
+        finals.append(list(json.loads(out)["q_final"].values()))
+    np.testing.assert_allclose(*finals, atol=1e-7)
+
+
+def test_a_lock_with_bounds_is_a_fault_of_the_robot(cli, monkeypatch, tmp_path):
+    """With --physics and --record or --notice, --lock is a locked fault, as a faults file would have it."""
+    asked = {}
+
+    class StoppedError(Exception):
+        pass
+
+    def simulate_faults(*_, **options):
+        asked.update(options)
+        raise StoppedError
+
+    monkeypatch.setattr(hf, "simulate_faults", simulate_faults)
+    with pytest.raises(StoppedError):
+        cli(*CALL, "--target", "1.5,0.5", "--lock", "2@0.8", "--physics", "--record", tmp_path / "a.npz")
+    assert [(e.kind, e.joint, e.onset) for e in asked["faults"]] == [("locked", "joint1", 0.0), ("locked", "joint2", 0.8)]

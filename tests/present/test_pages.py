@@ -98,10 +98,15 @@ def test_no_number_is_on_another_line_than_its_unit():
 @pytest.mark.parametrize("outcome", list(Outcome))
 def test_how_a_run_ended(outcome):
     runs = MADE["Runs"]()
-    reason = Reason.SLOW if outcome == Outcome.UNDECIDED else Reason.NONE
+    reason = Reason.TIME_LIMIT if outcome == Outcome.UNDECIDED else Reason.NONE
     run = _RunReport(replace(runs, code=np.uint8(outcome), reason=np.uint8(reason)))
     says_something(run.headline)
-    told = {"CONVERGED": "reaches its target", "STUCK": "stops", "MOVING": "never stops", "UNDECIDED": "undecided"}
+    told = {
+        "CONVERGED": "reaches its target",
+        "STUCK": "stops",
+        "MOVING": "never stops",
+        "UNDECIDED": "still moving at the limit of",
+    }
     assert told[outcome.name] in run.headline
 
 

@@ -241,7 +241,7 @@ def test_a_creeping_arm_is_undecided_until_it_has_the_time(three):
     starts = RAD([[fold + d, -34.4697, 131.81] for d in (0.0, 0.01)])
     runs = simulate(three, starts, [1.5, 1.5], locked=[0], time_limit=500.0)
     assert list(runs.outcome) == ["stuck", "undecided"]
-    assert list(runs.reason) == [Reason.NONE, Reason.SLOW]
+    assert list(runs.reason) == [Reason.NONE, Reason.TIME_LIMIT]
     assert runs.error[0] == pytest.approx(1.87083, abs=1e-4)
     assert simulate(three, starts[1], [1.5, 1.5], locked=[0], time_limit=20_000.0).outcome == "converged"
 

@@ -38,20 +38,20 @@ class Targets:
     size: Annotated[str, "Edges of the box, m: one number, or one for each axis."]
     rotation: Annotated[
         str | None,
-        "Roll, pitch and yaw of the tool at every target, rad: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
+        "Roll, pitch and yaw of the tool at every target, degrees: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
     ] = None
-    rotation_size: Annotated[str | None, "Edges of a box around --rotation, rad: one number, or three. Default: none."] = None
+    rotation_size: Annotated[str | None, "Edges of a box around --rotation, degrees: one number or three. Default: 0."] = None
     pointing: Annotated[bool, "Of --rotation only where the tool's z axis points counts, not its turn about it."] = False
 
-    def read(self, degrees: bool) -> dict[str, Any]:
+    def read(self) -> dict[str, Any]:
         """As a claim takes them."""
         return {
             "centre": read_numbers("--box", self.box, "two or three numbers, m,"),
             "size": read_numbers("--size", self.size, "one number, or one for each axis, m,"),
-            **self._turned(degrees),
+            **self._turned(),
         }
 
-    def _turned(self, degrees: bool) -> dict[str, Any]:
+    def _turned(self) -> dict[str, Any]:
         from holdfast.arm.urdf import rpy_rotation
 
         if self.rotation is None:
@@ -66,7 +66,7 @@ class Targets:
             raise InputError(
                 "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
             )
-        turn, task = np.pi / 180 if degrees else 1.0, {"task": "pointing"} if self.pointing else {}
+        turn, task = np.pi / 180, {"task": "pointing"} if self.pointing else {}
         if angles.size == 3 and not edges.any():
             return {"rotation": rpy_rotation((turn * angles).tolist()), **task}
         ends = turn * np.column_stack([angles - edges / 2, angles + edges / 2])

@@ -16,7 +16,10 @@ FailureOption = Annotated[Path | None, "What is locked, has lost range or is slo
 JsonOption = Annotated[bool, "Print JSON for machines."]
 TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
 TaskOption = Annotated[str | None, TASK_HELP]
-TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
+TARGET_HELP = (
+    "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z,roll,pitch,yaw (m and degrees, "
+    "as URDF) or x,y,z and a quaternion x,y,z,w."
+)
 LengthOption = Annotated[float, "Characteristic length, m, that divides linear rows."]
 QOption = Annotated[list[str], "Joint values, rad and m, separated by commas or spaces. May be given again."]
 DegreesOption = Annotated[bool, "--q is in degrees (prismatic joints stay in m)."]

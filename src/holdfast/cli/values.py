@@ -236,10 +236,12 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
 
 
 def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
-    """--target as the library takes it: the task's rows of the tool point, or position and quaternion as a pose (4, 4)."""
+    """--target as the library takes it: the task's rows of the tool point, or a pose (4, 4) by angles or by a quaternion."""
     values = read_numbers("--target", text, "numbers")
     if not np.isfinite(values).all():
         raise InputError("--target holds NaN or infinity; give finite numbers")
+    if values.size == 6:
+        return read_pose(arm, "--target", text)
     if values.size == 7:
         from holdfast.arm.poses import pose_of
 
@@ -249,8 +251,8 @@ def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
         return pose_of(values[:3], values[3:])
     if task.angular or task.frame != "base":
         raise InputError(
-            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "
-            "x,y,z,w"
+            f"--target has {values.size} numbers; task '{task.name}' needs x,y,z,roll,pitch,yaw in m and degrees, or "
+            "x,y,z in m and a quaternion x,y,z,w"
         )
     if values.size != task.m:
         raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")

@@ -180,7 +180,7 @@ class Job:
                 self.law, q[wanted], self.pose, locked=joint[wanted], time_limit=self.limit, tolerance=self.tolerance
             )
             code = runs.code.astype(np.int64)
-            slow = np.flatnonzero(runs.reason == Reason.SLOW)
+            slow = np.flatnonzero(runs.reason == Reason.TIME_LIMIT)
             code[slow[arriving(self.law, runs.q_final[slow], self.pose, joint[wanted][slow])]] = ARRIVING
             ended[wanted] = code
         return ended

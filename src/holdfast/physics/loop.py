@@ -22,17 +22,19 @@ from holdfast.physics.plant import BURST, EARLY, Plant
 from holdfast.physics.run import Ending, PhysicalRun, Why
 from holdfast.physics.servos import Servos, leads
 from holdfast.physics.surroundings import Touches
-from holdfast.simulation.batch import ARRIVES, DECAYS
+from holdfast.simulation.batch import ARRIVES
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Runs
-from holdfast.simulation.system import HALF, WINDOW, System
+from holdfast.simulation.system import System
 
 Array = NDArray[np.float64]
 
 REST = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
 STILL_FOR = 0.1  # 1/Ke: for so long, without a break
 TIME_LIMIT = 200.0  # 1/Ke
-MOVES = 10.0  # rad (and m) per time limit: slower at the end may be creeping to rest
+NEAR = 0.1  # of the motion's extent: a return that misses by more is none
+DRIFT = 1e-3  # of the motion's extent: what the last period may differ from the one before it by
+LEAST_EXTENT = 1e-3  # rad (and m): a smaller motion is not taken for a repeated one
 
 
 @checked
@@ -65,11 +67,12 @@ def simulate_physics(
 
     How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
     both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own
-    length), *stuck* if not. *moving*, if at the time limit
-    that command was never below 10 rad per time limit during the last 20 % of the time, and did not decay (as in the
-    kinematic loop, which has more time and so a lower threshold). *stuck*, and the reason is *contact*, where an object
-    holds an arm that is still told to move. Else *undecided*: slow; or singular, where the law has no
-    answer; or unstable, where the physics left all bounds, as servos that are too stiff for their rate may make it.
+    length), *stuck* if not. *moving*, if the arm is under way at the time limit and repeats its motion: over the whole last
+    period it was within a thousandth of the motion's extent of where it had been one period earlier, and so had the same
+    velocity. *stuck*, and the reason is *contact*, where an object
+    holds an arm that is still told to move. Else *undecided*: time_limit, where the arm is still moving at the time limit;
+    singular, where the law has no answer; or unstable, where the physics left all bounds, as servos that are too stiff for
+    their rate may make it.
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit. The arm needs inertial data.
@@ -106,7 +109,7 @@ def simulate_physics(
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
     notes, end = _drive(plant, law, runs, stiffness, damping, limit, touches)
-    outcome, reason = end or _verdict(notes.speed * limit)
+    outcome, reason = end or _verdict(notes.q, chosen.rate, law.gain, ~arm.prismatic)
     return PhysicalRun(
         law=law,
         servos=chosen,
@@ -115,7 +118,7 @@ def simulate_physics(
         kinematic=runs,
         outcome=outcome,
         reason=reason,
-        time=np.arange(len(notes.speed)) / chosen.rate,
+        time=np.arange(len(notes.q)) / chosen.rate,
         q=notes.q,
         reference=notes.reference,
         torque=notes.torque,
@@ -127,12 +130,11 @@ def simulate_physics(
 
 @dataclass(frozen=True)
 class _Notes:
-    """Noted at each of T control cycles, as in :class:`holdfast.PhysicalRun`; the speed is that commanded."""
+    """Values at each of T control cycles, as in :class:`holdfast.PhysicalRun`."""
 
     q: Array
     reference: Array
     torque: Array
-    speed: Array
     error: Array
 
 
@@ -165,7 +167,7 @@ def _drive(
         obeyed = rates[healthy]
         speed = float(np.sqrt(obeyed @ obeyed)) / out[n]
         plant.follow(reference + feed * rates)
-        cycles.append(np.concatenate((q, reference, plant.torque, (speed, square))))
+        cycles.append(np.concatenate((q, reference, plant.torque, (square,))))
         held = plant.data.ncon > 0
         if held:
             touches.note(plant.model, plant.data, (k + 1) * period)
@@ -179,9 +181,9 @@ def _drive(
         if still > patience:
             end = ("converged", "none") if scaled < ARRIVES**2 else ("stuck", "contact" if held else "none")
             break
-    table = np.array(cycles).reshape(-1, 3 * n + 2)
+    table = np.array(cycles).reshape(-1, 3 * n + 1)
     q, references, torque = (table[:, i * n : (i + 1) * n].copy() for i in range(3))
-    return _Notes(q, references, torque, table[:, -2].copy(), np.sqrt(table[:, -1])), end
+    return _Notes(q, references, torque, np.sqrt(table[:, -1])), end
 
 
 @recalled
@@ -202,9 +204,40 @@ def _goal(law: Law, runs: Runs) -> tuple[Array, Array]:
     return runs.target @ law.task.rows[:, :3], np.eye(3).ravel()
 
 
-def _verdict(speed: Array) -> tuple[Ending, Why]:
-    """What a run is doing at the time limit, by the speeds commanded to the healthy joints, per time limit."""
-    first, half = (int(share * len(speed)) for share in (WINDOW, HALF))
-    early, late = speed[first:half].max(initial=0.0), speed[half:].max(initial=0.0)
-    moving = speed[first:].min(initial=np.inf) > MOVES and early > 0 and late >= DECAYS * early
-    return ("moving", "none") if moving else ("undecided", "slow")
+def _verdict(q: Array, rate: float, gain: float, turning: NDArray[np.bool_]) -> tuple[Ending, Why]:
+    """Return how a run ended that was under way at the time limit: it repeats its motion, or it is undecided.
+
+    It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
+
+    Args:
+        q: (T, n) configurations at the control cycles.
+        rate: Control cycles per second.
+        gain: Ke, 1/s.
+        turning: (n,) joints of which the values count modulo whole turns.
+    """
+    undecided: tuple[Ending, Why] = ("undecided", "time_limit")
+    away = _wrapped(q[-1] - q, turning)
+    distance = np.linalg.norm(away, axis=1)[::-1]  # backwards in time, from 0
+    extent = float(distance.max())
+    far = int(np.argmax(distance > NEAR * extent))
+    if extent < LEAST_EXTENT or not far:
+        return undecided
+    near = np.flatnonzero((distance[1:-1] <= distance[:-2]) & (distance[1:-1] < distance[2:])) + 1
+    for period in near[(near > far) & (distance[near] < NEAR * extent)].tolist():
+        if 2 * period + 2 > len(q):
+            break
+        # The return falls between two cycles: there the motion is a parabola.
+        around = away[[-period - 2, -period - 1, -period]]
+        speed = (around[2] - around[0]) / 2
+        shift = -float(around[1] @ speed) / max(float(speed @ speed), np.finfo(np.float64).tiny)
+        last = np.arange(len(q) - period, len(q))
+        before = q[last - period - 1], q[last - period], q[np.minimum(last - period + 1, len(q) - 1)]
+        earlier = before[1] + shift * (before[2] - before[0]) / 2 + shift**2 * (before[2] - 2 * before[1] + before[0]) / 2
+        missed = float(np.linalg.norm(_wrapped(q[last] - earlier, turning), axis=1).max())
+        if missed < DRIFT * extent * min(period / rate * gain, 1.0):
+            return "moving", "none"
+    return undecided
+
+
+def _wrapped(q: Array, turning: NDArray[np.bool_]) -> Array:
+    return np.where(turning, np.arctan2(np.sin(q), np.cos(q)), q)

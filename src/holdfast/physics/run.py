@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Ending = Literal["converged", "stuck", "moving", "undecided"]
-Why = Literal["none", "singular", "slow", "unstable", "contact"]
+Why = Literal["none", "singular", "time_limit", "unstable", "contact"]
 
 SAMPLES = 4000  # of the kinematic path, at equal times
 PIECES = 800  # of each path where their distance is measured, of equal length
@@ -35,7 +35,8 @@ class PhysicalRun(Result):
         stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for prismatic joints).
         kinematic: The same run of :func:`holdfast.simulation.simulate`.
         outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
-        reason: Why it is undecided: ``singular``, ``slow`` or ``unstable``; ``contact`` if an object holds it; else ``none``.
+        reason: Why it is undecided: ``singular``, ``time_limit`` or ``unstable``; ``contact`` if an object holds it; else
+            ``none``.
         time: (T,) s.
         q: (T, n) measured configuration, rad and m.
         reference: (T, n) what the servos are to follow, rad and m.
@@ -64,6 +65,18 @@ class PhysicalRun(Result):
     def agrees(self) -> bool:
         """The kinematic run ended in the same way."""
         return self.outcome == str(self.kinematic.outcome)
+
+    @property
+    def ending(self) -> str:
+        """How it ended, and why it is undecided."""
+        if self.reason == "time_limit":
+            return f"still moving at the limit of {self.time[-1]:.6g} s"
+        return self.outcome if self.reason == "none" else f"{self.outcome} ({self.reason})"
+
+    @cached_property
+    def errors_apart(self) -> tuple[Array, Array]:
+        """Position errors (T,), m, and angle errors (T,), rad, from the target."""
+        return self.kinematic._motion.errors(self.kinematic, 0, self.q)
 
     @cached_property
     def kinematic_path(self) -> Path:
@@ -105,9 +118,8 @@ class PhysicalRun(Result):
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        why = "" if self.reason == "none" else f" ({self.reason})"
         lines = [
-            f"{self.servos.describe()}, on MuJoCo: {self.outcome}{why}; kinematic: {self.kinematic.outcome}",
+            f"{self.servos.describe()}, on MuJoCo: {self.ending}; kinematic: {self.kinematic.outcome}",
             f"tool paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
         ]
         if self.contacts is not None:

@@ -9,18 +9,22 @@ from dataclasses import replace
 import numpy as np
 import yaml
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from holdfast import arms
 from holdfast.arm.model import Arm
+from holdfast.arm.poses import zyx_angles
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arms.tool import attachment, attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.failures import FailureSets, failure_sets
 from holdfast.grammar import ROWS, TASKS
 from holdfast.regions.region import Region
-from holdfast.regions.weights import Density
+from holdfast.regions.weights import Density, swap_angles
 from holdfast.registry import INDICES
 from holdfast.report.page import Block, Code, Text
+
+Array = NDArray[np.float64]
 
 _POSES_FILE = "poses.csv"
 _CAPSULES_FILE = "capsules.yaml"
@@ -60,6 +64,14 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
     flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
     return on_lines(f"holdfast assess {shlex.quote(spec)}", [*words, *flags, *apart, *locks]), remark
+
+
+def pose_command(arm: Arm, pose: Array) -> str:
+    """Return the command that finds the best configuration of a pose (4, 4), with the pose as roll, pitch, yaw in degrees."""
+    spec, words, _ = arms.command_words(arm)
+    numbers = [*pose[:3, 3].tolist(), *np.rad2deg(zyx_angles(pose[:3, :3])[::-1]).tolist()]
+    text = ",".join(f"{round(x, 9) + 0.0:.10g}" for x in numbers)
+    return " ".join([f"holdfast optimise {shlex.quote(spec)}", *words, f'--pose="{text}"'])
 
 
 def on_lines(command: str, words: Iterable[str]) -> str:
@@ -146,14 +158,18 @@ def failures_option(arm: Arm, failures: FailureSets) -> str:
 def region_file(region: Region) -> str:
     """The region as the YAML text that :meth:`Region.load` reads, with every digit."""
     center, size = list(region.center), list(region.size)
-    data: dict[str, object] = {"name": region.name, "angles": "rad"}
+    data: dict[str, object] = {"format": 2, "name": region.name, "angles": "rad"}
     if region.listed is not None:
         data["poses"] = _POSES_FILE
-    elif region.kind == "box":
-        box: dict[str, object] = {"center": center[:3], "size": size[:3], "rpy_center": center[3:], "rpy_size": size[3:]}
+    elif region.kind in ("box", "cone"):
+        box: dict[str, object] = {"center": center[:3], "size": size[:3]}
+        if region.kind == "cone":
+            box["cone"] = {"axis": list(region.axis), "within": float(np.rad2deg(region.within))}
+        else:
+            box |= {"rpy_center": center[:2:-1], "rpy_size": size[:2:-1]}
         data["box"] = box
         if isinstance(region.weight, Density):
-            box["density"] = region.weight.to_dict()
+            box["density"] = swap_angles(region.weight.to_dict())
     else:
         low = [c - s / 2 for c, s in zip(center, size, strict=True)]
         data["joints"] = {"lower": low, "upper": [c + s / 2 for c, s in zip(center, size, strict=True)]}

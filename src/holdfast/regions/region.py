@@ -16,13 +16,14 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.regions.pose_list import PoseList
-from holdfast.regions.weights import Density, check_weights
+from holdfast.regions.weights import Density, check_weights, swap_angles
 from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 Sampling = Literal["random", "sobol"]
 Draw = Callable[[np.random.Generator, int], ArrayLike | tuple[ArrayLike, ArrayLike]]
 Weight = Callable[[Array], ArrayLike]
+Order = Literal["urdf", "abdi"]
 
 _POSE_BLOCK = 1024
 _JOINT_BLOCK = 16384
@@ -50,24 +51,47 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
         return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
 
 
+def rotations_in_cone(axis: Array, samples: Array) -> Array:
+    """Rotations (N, 3, 3) whose z axes are on a spherical cap.
+
+    Args:
+        axis: (3,) unit vector in the middle of the cap.
+        samples: (N, 3) cosine of the angle from the axis, direction about the axis, rad, and turn about the z axis, rad.
+            Uniform numbers make directions that are uniform on the sphere, because the area of a cap is linear in its height.
+    """
+    from scipy.spatial.transform import Rotation
+
+    angle = np.arccos(np.clip(samples[:, 0], -1.0, 1.0))
+    tilted = Rotation.from_euler("ZYZ", np.column_stack([samples[:, 1], angle, samples[:, 2] - samples[:, 1]]))
+    if axis[2] < -1 + 1e-12:  # half a turn about x: the formula below has no direction
+        onto = Rotation.from_quat([1.0, 0.0, 0.0, 0.0])
+    else:
+        onto = Rotation.from_quat([-axis[1], axis[0], 0.0, 1 + axis[2]])
+    return np.asarray((onto * tilted).as_matrix())
+
+
 @dataclass(frozen=True)
 class Region(Shown):
-    """A distribution of poses (a box in position and angles, a list, a function) or of configurations (a box in the joints).
+    """A distribution of poses (a box, a cone, a list, a function) or of configurations (a box in the joints).
 
-    Use :meth:`box`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its own seed,
+    Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its
+    own seed,
     so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have weights
     where the robot works more; statistics are then of the weights.
 
     Attributes:
-        kind: ``box``, ``joints``, ``poses`` (a list) or ``sampler`` (a function).
-        center, size: Of the box: (6,) position then roll, pitch, yaw; or (n,) joints. m and rad. Empty for the other kinds.
+        kind: ``box``, ``cone``, ``joints``, ``poses`` (a list) or ``sampler`` (a function).
+        center, size: Of the box: (6,) position then the angles a, b, c of ``Rz(a) Ry(b) Rx(c)``; of the cone: (6,) position,
+            cosine of the angle from its axis, direction about the axis, turn of the tool about its own z axis; or (n,) joints.
+            m and rad. Empty for the other kinds.
         name: For reports.
         weight: Of the samples (N, 6) of a box, or None if all count alike.
         listed: The poses of a list.
         draw: The function of a sampler, and whether it gives weights.
+        axis: (3,) unit vector in the middle of the cone; empty for the other kinds.
     """
 
-    kind: Literal["box", "joints", "poses", "sampler"]
+    kind: Literal["box", "cone", "joints", "poses", "sampler"]
     center: tuple[float, ...]
     size: tuple[float, ...]
     _: KW_ONLY
@@ -75,6 +99,7 @@ class Region(Shown):
     weight: Weight | None = None
     listed: PoseList | None = None
     draw: tuple[Draw, bool] | None = None
+    axis: tuple[float, ...] = ()
 
     @classmethod
     @checked
@@ -86,24 +111,31 @@ class Region(Shown):
         rpy_size: ArrayLike = (0.0, 0.0, 0.0),
         name: str = "region",
         weight: Weight | Mapping[str, Sequence[Sequence[float]]] | None = None,
+        *,
+        order: Order = "urdf",
     ) -> Region:
         """Poses uniform in a box of positions and, independently, a box of angles; with weights if some count more.
 
         Args:
             center: (3,) middle in the world, m.
             size: (3,) full edge lengths, m; a scalar is a cube.
-            rpy_center: (3,) middle of (roll, pitch, yaw), rad; ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+            rpy_center: (3,) middle of (roll, pitch, yaw), rad; as in URDF ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
             rpy_size: (3,) full ranges, rad, or a scalar; angles are drawn about the centre by addition, so the pitch may
                 leave +-90 degrees.
             name: For reports.
-            weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, roll,
-                pitch, yaw in m and rad, that gives (N,); a results folder cannot hold it. Or points by coordinate, which
+            weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, then the
+                angles about z, y, and x (yaw, pitch, roll) in m and rad, that gives (N,); a results folder cannot hold it.
+                Or points by coordinate, which
                 it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant beyond them; several
                 coordinates are multiplied.
+            order: Convention of roll, pitch, yaw: ``urdf``, or ``abdi`` for ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of
+                Abdi et al. 2012, which swaps the names of the first and the last angle.
 
         Raises:
-            InputError: Not three finite numbers, a negative size, or weights of neither kind.
+            InputError: Not three finite numbers, a negative size, an unknown order, or weights of neither kind.
         """
+        if order not in ("urdf", "abdi"):
+            raise InputError(f"region: order is {order!r}; use urdf or abdi")
         parts = []
         for what, value, scalar in (
             ("center", center, False),
@@ -122,12 +154,58 @@ class Region(Shown):
             if scalar and (a < 0).any():
                 raise InputError(f"region: {what} is {a.tolist()}; sizes must not be negative")
             parts.append(a)
-        middle, edges = np.r_[parts[0], parts[2]], np.r_[parts[1], parts[3]]
+        turn = slice(None, None, -1 if order == "urdf" else 1)
+        middle, edges = np.r_[parts[0], parts[2][turn]], np.r_[parts[1], parts[3][turn]]
         if weight is not None and not callable(weight):
             if not isinstance(weight, Mapping):
                 raise InputError("region: weight must be a function of samples (N, 6), or points by coordinate")
-            weight = Density.of(weight)
+            weight = Density.of(weight if order == "abdi" else swap_angles(weight))
         return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name=name, weight=weight)
+
+    @classmethod
+    @checked
+    def cone(
+        cls,
+        center: ArrayLike,
+        size: ArrayLike,
+        axis: ArrayLike,
+        within: float,
+        name: str = "region",
+        weight: Weight | Mapping[str, Sequence[Sequence[float]]] | None = None,
+    ) -> Region:
+        """Poses uniform in a box of positions, with the tool's z axis uniform on a spherical cap, and any turn about it.
+
+        Args:
+            center: (3,) middle of the positions in the world, m.
+            size: (3,) full edge lengths, m; a scalar is a cube.
+            axis: (3,) direction in the middle of the cap, in the world, of any length but 0.
+            within: Largest angle between the tool's z axis and ``axis``, rad, 0 to pi.
+            name: For reports.
+            weight: As for :meth:`box`; points by coordinate of x, y, and z only.
+
+        Raises:
+            InputError: Not three finite numbers, an axis of length 0, an angle out of range, or weights of neither kind.
+        """
+        box = cls.box(center, size, name=name, weight=weight)
+        try:
+            a = np.asarray(axis, dtype=np.float64)
+        except (TypeError, ValueError):
+            a = np.zeros(0)
+        if a.shape != (3,) or not np.isfinite(a).all() or not np.linalg.norm(a) > 1e-9:
+            raise InputError(f"region: axis of the cone is {axis!r}; it must be 3 finite numbers, not all 0")
+        if not (np.isfinite(within) and 0 <= within <= np.pi):
+            raise InputError(f"region: within is {np.rad2deg(within):g} degrees; it must be between 0 and 180")
+        if isinstance(box.weight, Density) and (unknown := {n for n, _ in box.weight.pieces} - {"x", "y", "z"}):
+            raise InputError(f"region: density of {min(unknown)} does not go with a cone; use x, y, z")
+        lowest = float(np.cos(within))
+        middle, edges = (*box.center[:3], (1 + lowest) / 2, 0.0, 0.0), (*box.size[:3], 1 - lowest, 2 * np.pi, 2 * np.pi)
+        unit = tuple((a / np.linalg.norm(a)).tolist())
+        return cls("cone", middle, edges, name=name, weight=box.weight, axis=unit)
+
+    @property
+    def within(self) -> float:
+        """Largest angle between the tool's z axis and the axis of the cone, rad."""
+        return float(np.arccos(np.clip(1 - self.size[3], -1.0, 1.0)))
 
     @classmethod
     @checked
@@ -210,8 +288,9 @@ class Region(Shown):
         angles = rpy_from_rotation(pose[:3, :3])
         normal = plane_normal(arm)
         if normal is not None and abs(normal[2]) > 1 - 1e-9:
-            return cls.box(pose[:3, 3], [edge, edge, 0.0], angles, [2 * np.pi, 0.0, 0.0], name="default region")
-        return cls.box(pose[:3, 3], edge, angles, np.pi / 2, name="default region")
+            turns = [2 * np.pi, 0.0, 0.0]
+            return cls.box(pose[:3, 3], [edge, edge, 0.0], angles, turns, name="default region", order="abdi")
+        return cls.box(pose[:3, 3], edge, angles, np.pi / 2, name="default region", order="abdi")
 
     # ---- sampling --------------------------------------------------------------------------------------------------
 
@@ -359,7 +438,10 @@ class Region(Shown):
             t[:, :3] = samples[:, :12].reshape(-1, 3, 4)
             return t
         t[:, :3, 3] = samples[:, :3]
-        t[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
+        if self.kind == "cone":
+            t[:, :3, :3] = rotations_in_cone(np.array(self.axis), samples[:, 3:])
+        else:
+            t[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
         return t
 
     def weights(self, samples: Array) -> Array:
@@ -393,6 +475,8 @@ class Region(Shown):
         if self.draw is not None:
             return {"kind": self.kind, "name": self.name}
         found: dict[str, Any] = {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
+        if self.axis:
+            found["axis"] = list(self.axis)
         if self.weight is not None:
             found["density"] = self.weight.to_dict() if isinstance(self.weight, Density) else "a function of your own"
         return found
@@ -402,14 +486,15 @@ class Region(Shown):
         """The region :meth:`to_dict` wrote."""
         if data["kind"] == "poses":
             return cls("poses", (), (), name=data["name"], listed=PoseList.from_dict(data))
-        if data["kind"] not in ("box", "joints"):
-            raise InputError(f"region: kind '{data['kind']}' is not known; use box, joints or poses")
+        if data["kind"] not in ("box", "cone", "joints"):
+            raise InputError(f"region: kind '{data['kind']}' is not known; use box, cone, joints or poses")
         weight = None
         if "density" in data:
             if not isinstance(data["density"], dict):
                 raise InputError(f"region: density is {data['density']!r}; it must be points by coordinate")
             weight = Density.of(data["density"])
-        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), name=data["name"], weight=weight)
+        axis = tuple(data.get("axis", ()))
+        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), name=data["name"], weight=weight, axis=axis)
 
     @classmethod
     @checked
@@ -425,6 +510,8 @@ class Region(Shown):
         try:
             if kind == "poses":
                 return cls(kind, (), (), **given)
+            if kind == "cone":
+                return cls.cone(**given)
             return cls.box(**given) if kind == "box" else cls.joints(**given)
         except InputError as error:
             raise InputError(f"region file '{file}': {error}") from error
@@ -440,11 +527,17 @@ class Region(Shown):
         own = "; weighted by a function of your own" if self.weight is not None else ""
         weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else own
         c, s = np.round(self.center, 12) + 0.0, np.round(self.size, 12)
+        positions = f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
+        if self.kind == "cone":
+            x, y, z = np.round(self.axis, 12) + 0.0
+            return (
+                f"{positions}z axis of the tool within {np.rad2deg(self.within):.4g} deg of ({x:.4g}, {y:.4g}, {z:.4g}), "
+                f"uniform on the cap{weight}"
+            )
         return (
-            f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
-            "roll, pitch, yaw in "
-            f"{np.rad2deg(s[3]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[5]):.4g} deg about "
-            f"({np.rad2deg(c[3]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[5]):.4g}) deg, R = Rz(roll) Ry(pitch) Rx(yaw)"
+            f"{positions}roll, pitch, yaw in "
+            f"{np.rad2deg(s[5]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[3]):.4g} deg about "
+            f"({np.rad2deg(c[5]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[3]):.4g}) deg, R = Rz(yaw) Ry(pitch) Rx(roll)"
             f"{weight}"
         )
 

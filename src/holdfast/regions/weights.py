@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
+
+Points = TypeVar("Points")
 
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
 
@@ -33,6 +36,11 @@ def check_weights(weights: ArrayLike, count: int, what: str) -> Array:
     return w
 
 
+def swap_angles(points: Mapping[str, Points]) -> dict[str, Points]:
+    """Swap roll and yaw: those of URDF are the yaw and roll of Abdi et al. 2012, in which samples are stored."""
+    return {{"roll": "yaw", "yaw": "roll"}.get(name, name): value for name, value in points.items()}
+
+
 @dataclass(frozen=True)
 class Density:
     """A weight of samples of a box: the product of one piecewise linear function per coordinate.
@@ -40,7 +48,8 @@ class Density:
     Beyond its outermost points a function keeps its last value.
 
     Attributes:
-        pieces: Name of the coordinate (``x, y, z``, m, ``roll, pitch, yaw``, rad) and its (coordinate, weight) points.
+        pieces: Name of the coordinate (``x, y, z``, m, ``roll, pitch, yaw`` as Abdi et al. 2012, rad) and its
+            (coordinate, weight) points.
     """
 
     pieces: tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
@@ -93,5 +102,8 @@ class Density:
         parts = []
         for name, points in self.pieces:
             unit, scale = (" m", 1.0) if COORDINATES.index(name) < 3 else (" deg", 180 / np.pi)
-            parts.append(f"{name} " + ", ".join(f"{w:.4g} at {scale * x:.4g}{unit}" for x, w in points))
+            parts.append(
+                f"{next(iter(swap_angles({name: points})))} "
+                + ", ".join(f"{w:.4g} at {scale * x:.4g}{unit}" for x, w in points)
+            )
         return "weight by " + "; ".join(parts) + "; linear between"

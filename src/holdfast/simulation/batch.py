@@ -21,11 +21,23 @@ from holdfast.kernels.recall import recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.notice import Count, unheard
 from holdfast.simulation.cycles import SUBSTEPS, Cycles
-from holdfast.simulation.endless_motion import circling
+from holdfast.simulation.endless_motion import find_endless
 from holdfast.simulation.residual import Nearest
 from holdfast.simulation.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs, Setting
-from holdfast.simulation.system import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, own_units
+from holdfast.simulation.system import (
+    ARRIVED,
+    COLLAPSE,
+    FAR,
+    PHASE,
+    REST,
+    RUNNING,
+    TIME,
+    System,
+    known_at,
+    own_units,
+    split_errors,
+)
 from holdfast.simulation.tableaus import CLASSIC, DOP853
 from holdfast.solvers.inverse_kinematics import tool_error
 
@@ -138,18 +150,18 @@ class Motion:
         else:
             hand = np.full(target.shape, np.nan)
             hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
-        code, reason = self._verdict(own_units(self.law, error, hand, target), parts)
-        code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
+        code, reason, lively = self._verdict(own_units(self.law, error, hand, target), parts)
+        code[~good], reason[~good], lively[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT, False
         if flips:
             # A tight tolerance shrinks the steps to nothing there, as a singular configuration does.
             rows = np.flatnonzero(np.isin(reason, (Reason.STEPS, Reason.SINGULAR)))
             reason[rows[self._half_turn(q[rows], target[rows, :3, 3], target[rows, :3, :3])]] = Reason.HALF_TURN
         if isinstance(self._steps, Steps):
-            rows = np.flatnonzero(reason == Reason.STEPS)
+            rows = np.flatnonzero((reason == Reason.STEPS) | lively)
             given = self._parameters(numbers[rows], setting)
             given[:, -self.law.arm.n - 3 : -3] = lock_time[rows] * self._unit > parts["time"][rows]
-            circles = rows[circling(self._steps, states[rows], given, ~self.law.arm.prismatic, MOVES)]
-            code[circles], reason[circles] = Outcome.MOVING, Reason.NONE
+            endless = rows[find_endless(self._steps, states[rows], given, ~self.law.arm.prismatic, MOVES)]
+            code[endless], reason[endless] = Outcome.MOVING, Reason.NONE
         return {
             "code": code,
             "reason": reason,
@@ -201,18 +213,20 @@ class Motion:
         """Units of time of a state in one second or cycle."""
         return 1.0 if self.cycles else self.law.gain
 
-    def _verdict(self, scaled: Array, parts: dict[str, Array]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    def _verdict(
+        self, scaled: Array, parts: dict[str, Array]
+    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.bool_]]:
+        """Outcomes and reasons, and which runs are fast enough at the time limit to look for a limit cycle."""
         codes = parts["code"][:, 0]
         slowest, early, late = (parts[name][:, 0] for name in ("slowest", "early", "late"))
-        moving = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
+        lively = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
         converged = (codes == ARRIVED) | ((codes == REST) & (scaled < ARRIVES) & (not self.cycles))
         stuck = (codes == REST) & ~converged
-        outcome = np.select([converged, stuck, moving], [Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING], Outcome.UNDECIDED)
+        outcome = np.select([converged, stuck], [Outcome.CONVERGED, Outcome.STUCK], Outcome.UNDECIDED)
         reason = np.select(
-            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.SLOW, Reason.STEPS], 0
+            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.TIME_LIMIT, Reason.STEPS], 0
         )
-        reason[outcome != Outcome.UNDECIDED] = Reason.NONE
-        return outcome.astype(np.uint8), reason.astype(np.uint8)
+        return outcome.astype(np.uint8), reason.astype(np.uint8), lively
 
     def _phases(self, q0: Array, target: Array, lock_time: Array, setting: Setting, advance: Advance) -> Array:
         """States at the end. Between two locks nothing changes: such a phase is one loop."""
@@ -288,15 +302,15 @@ class Motion:
 
     # ---- on demand -----------------------------------------------------------------------------------------------
 
-    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array:
-        """See :meth:`Runs.least_error`."""
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
+        """Find the least error (N,) that each arm can have, and a configuration (N, n) that has it; NaN for bad input."""
         q, poses = np.atleast_2d(runs.q_final), self._poses(runs)
         mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
         good = np.isfinite(q).all(axis=1)
-        least = np.full(len(q), np.nan)
+        least, nearest = np.full(len(q), np.nan), np.full(q.shape, np.nan)
         parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), mask], axis=1)
-        least[good] = self._nearest.search(q[good], parameters[good], restarts, generator)
-        return least
+        least[good], nearest[good] = self._nearest.search(q[good], parameters[good], restarts, generator)
+        return least, nearest
 
     def _poses(self, runs: Runs) -> Array:
         """Targets (N, 4, 4)."""
@@ -314,12 +328,20 @@ class Motion:
             if not (np.isfinite(until) and until > 0):
                 raise InputError(f"until is {until:g}; it must be a finite number above 0")
             end = min(end, float(until))
-        _, at = self.recorded(runs, k, end)
-        time = np.linspace(0.0, end, samples)
-        q, pose = at(time), self._poses(runs)[k]
-        error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
+        return self.sampled(runs, k, self.recorded(runs, k, end)[1], np.linspace(0.0, end, samples))
+
+    def sampled(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path:
+        """Sample run k, as :meth:`recorded` returned it, at times (T,)."""
+        q = at(time)
+        position, angle = self.errors(runs, k, q)
         locked = time[:, None] >= np.atleast_2d(runs.lock_time)[k]
-        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error=error, locked=locked)
+        tool = self.law.arm.forward_kinematics(q)[:, :3, 3]
+        return Path(time, q, tool, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked)
+
+    def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]:
+        """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k."""
+        target = np.broadcast_to(self._poses(runs)[k], (len(q), 4, 4))
+        return split_errors(self.law, self._nearest.errors(q, target), self.law.arm.forward_kinematics(q), target)
 
     def recorded(self, runs: Runs, k: int, end: float) -> tuple[Array, Callable[[Array], Array]]:
         """Run k again up to a time, s or cycles: when its steps began (S,), and the motion (T, n) at any times (T,)."""

@@ -72,11 +72,13 @@ def simulate(
     * at rest, where the speed falls below 1e-8 Ke: *converged* if the error is below 1e-5, *stuck* if not (rad, and m for an
       arm of about 1 m: lengths count in units of the arm's own, its links end to end rounded to a power of two, so that an arm
       and its copy in another size end alike);
-    * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
-      its greatest value in the last tenth is at least 0.99 of that in the tenth before; or if after 100,000 steps, before the
-      limit, it circles faster than that, and comes back to where it was, modulo whole turns, so nearly that until the limit it
-      would drift by less than a hundredth of the motion's extent;
-    * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
+    * *moving*, if it was found to repeat its motion (a limit cycle, or joints that turn forever): at the time limit, or after
+      100,000 steps, the motion is followed for some thousand steps more, and returns to the same configuration, modulo whole
+      turns, so nearly that over 100,000/Ke it would drift by less than a hundredth of its extent. At the time limit this is
+      looked for only where the speed was never below 1e-3 Ke during the last 20 % of the time and did not decay, because its
+      greatest value in the last tenth is at least 0.99 of that in the tenth before;
+    * *undecided*, with the reason: *time_limit* (still moving then, and not found to repeat its motion; a longer limit may
+      decide it and contradicts no shorter one), *singular* (the steps shrink to
       nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with
       the end effector
       half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
@@ -88,12 +90,12 @@ def simulate(
     *converged* when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other
     the end effector moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1
     m); at the
-    limit it is *moving* or *undecided* as above.
+    limit it is *undecided*, because a motion in steps returns to no configuration exactly.
 
     With a cell each run says what the arm touches on its way, when first and how deep (``contacts``); that changes nothing of
     the run, unless it is to stop there. The distance is a lower bound, so a contact may come a little early, and none is
     missed: the motion is looked at from instant to instant, at most 0.05 rad (and m) apart, and between them until half a
-    millimetre is all that could change. Of a run that never stops the first 200/Ke are looked at.
+    millimetre is all that could change. Of a run that repeats its motion the first 200/Ke are checked.
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit (per second, or per cycle).

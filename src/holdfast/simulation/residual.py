@@ -61,15 +61,20 @@ class Nearest:
         """(N,) norms of the task's error, m and rad."""
         return self._error.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
-    def search(self, q: Array, parameters: Array, restarts: int, generator: np.random.Generator) -> Array:
-        """(N,) least norms of the error found from q (N, n) and from random values of the healthy joints."""
+    def search(self, q: Array, parameters: Array, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
+        """Find the least norms of the error (N,) from q (N, n) and from random values of the healthy joints.
+
+        Returns:
+            The norms, and (N, n) configurations that have them.
+        """
         rows, n = q.shape
         position, rotation, mask = parameters[:, :3], parameters[:, 3:12].reshape(rows, 3, 3), parameters[:, 12:]
-        least = self._error.rows(q, position, rotation)[:, 0]
+        least, nearest = self._error.rows(q, position, rotation)[:, 0], q.copy()
         low, high = finite_limits(self._arm)
         for k in each("starts of each run", range(restarts + 1)):
             start = q if k == 0 else np.where(mask > 0, generator.uniform(low, high, (rows, n)), q)
             found = self._loop.run(np.column_stack([start, np.full(rows, _FIRST)]), parameters, _FLAT, _STEPS)
             error = self._error.rows(found.state[:, :n], position, rotation)[:, 0]
-            least = np.where(error < least, error, least)
-        return np.asarray(least)
+            better = error < least
+            least[better], nearest[better] = error[better], found.state[better, :n]
+        return least, nearest

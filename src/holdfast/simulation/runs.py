@@ -27,6 +27,9 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
+CHECKED = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
+
+
 class Outcome(IntEnum):
     """How one run ended."""
 
@@ -44,7 +47,7 @@ class Outcome(IntEnum):
 _ENDS = {
     Outcome.CONVERGED: "reaches the target",
     Outcome.STUCK: "stops elsewhere",
-    Outcome.MOVING: "never stops",
+    Outcome.MOVING: "never stops: it repeats its motion",
     Outcome.UNDECIDED: "is undecided",
 }
 
@@ -57,7 +60,7 @@ class Reason(IntEnum):
 
     NONE = 0
     SINGULAR = 1
-    SLOW = 2
+    TIME_LIMIT = 2
     STEPS = 3
     BAD_INPUT = 4
     HALF_TURN = 5
@@ -72,7 +75,7 @@ class Reason(IntEnum):
 _SENTENCES = {
     Reason.NONE: "decided",
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
-    Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet stop: give a longer time_limit",
+    Reason.TIME_LIMIT: "still moving at the time limit, and not found to repeat the motion: give a longer time_limit",
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.HALF_TURN: (
         "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "
@@ -95,6 +98,8 @@ class Path:
         q: (T, n) rad and m.
         x: (T, 3) tool point in the world, m.
         error: (T,) norm of the task's error, m and rad.
+        position_error: (T,) distance of the tool point from the target in the directions of the task, m.
+        angle_error: (T,) angle of the end effector from the target in the directions of the task, rad.
         locked: (T, n) True where the joint is locked.
     """
 
@@ -103,6 +108,8 @@ class Path:
     x: Array
     _: KW_ONLY
     error: Array
+    position_error: Array
+    angle_error: Array
     locked: Flags
 
 
@@ -124,7 +131,9 @@ class Setting:
 class _Motion(Protocol):
     """What computed the runs, as far as they ask it again."""
 
-    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array: ...
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]: ...
+    def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]: ...
+    def sampled(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path: ...
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path: ...
     def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs: ...
     def recorded(self, runs: Runs, k: int, end: float) -> tuple[Array, Callable[[Array], Array]]: ...
@@ -199,6 +208,24 @@ class Runs(Result):
         found = {c.run: c for c in reversed(self.contacts or ())}  # of each run the first comes last
         return tuple(found.get(k) for k in range(len(self)))
 
+    def ending_sentence(self, k: int = 0) -> str:
+        """Return how run k ended, a phrase about the end effector that names the time limit where the limit ended the run."""
+        reason = Reason(int(np.atleast_1d(self.reason)[k]))
+        if reason == Reason.TIME_LIMIT:
+            return f"is still moving at the limit of {self._setting.limit:.6g} {self.unit}"
+        outcome = Outcome(int(np.atleast_1d(self.code)[k])).sentence
+        return outcome if reason == Reason.NONE else f"{outcome}: {reason.sentence}"
+
+    @property
+    def unit(self) -> str:
+        """``s``, or ``cycles``."""
+        return "cycles" if self.cycles else "s"
+
+    def checked_until(self, k: int = 0) -> float:
+        """Return the time up to which run k is checked for contacts, s or cycles: its end, unless it repeats its motion."""
+        end, repeats = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == Outcome.MOVING
+        return min(end, CHECKED / self.law.gain) if repeats else end
+
     def counts(self) -> dict[str, int]:
         """How many runs ended in each way."""
         found = np.bincount(np.atleast_1d(self.code), minlength=len(Outcome))
@@ -217,7 +244,7 @@ class Runs(Result):
         """
         if restarts < 0:
             raise InputError(f"restarts is {restarts}; it must be 0 or more")
-        least = self._motion.least_error(self, restarts, np.random.default_rng(seed))
+        least, _ = self._motion.least_error(self, restarts, np.random.default_rng(seed))
         return least if self.code.ndim else least[0]
 
     @property
@@ -246,7 +273,7 @@ class Runs(Result):
         return self._motion.path(self, k, samples, until)
 
     def to_csv(self, file: str | File, k: int = 0) -> File:
-        """Write run k as rows over time: joint positions, tool point (m) and error; up to 200/Ke at most.
+        """Write run k as rows over time, from its start to its end: joint positions, tool point (m), position and angle error.
 
         Raises:
             InputError: No such run.
@@ -284,8 +311,11 @@ class Runs(Result):
             return f"{touching} of them touch something on the way" + (f" ({what}, all runs together)" if what else "")
         own = [c for c in self.contacts if c.run == (k or 0)]
         if not own:
+            whole, checked = float(np.atleast_1d(self.time)[k or 0]), self.checked_until(k or 0)
+            if checked < whole:
+                return f"The arm touches nothing in the first {checked:g} s; its motion after them was not checked."
             return "The arm touches nothing on the way."
-        unit, ends = "cycles" if self.cycles else "s", self.stopped is not None
+        unit, ends = self.unit, self.stopped is not None
         more = "" if len(own) == 1 else f", the first of {len(own)} contacts"
         return f"{capitalised(own[0].sentence(unit))}{more}{': the run is stopped there' if ends else ''}."
 
@@ -301,7 +331,10 @@ class Runs(Result):
             there = int((past & (np.atleast_1d(self.code) == Outcome.CONVERGED)).sum())
             lines.append(f"{int(past.sum())} of them pass a joint limit on the way, {there} of these converge")
         reasons = np.atleast_1d(self.reason)
-        lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in UNDECIDED if (reasons == r).any()]
+        for reason in UNDECIDED:
+            if (reasons == reason).any():
+                limit = f", {self._setting.limit:.6g} {self.unit}" if reason == Reason.TIME_LIMIT else ""
+                lines.append(f"{int((reasons == reason).sum())} undecided{limit}: {reason.sentence}")
         return [*lines, *[x for x in (self.contact_sentence(),) if x]]
 
 

@@ -121,13 +121,28 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
     return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
 
 
+def split_errors(law: Law, error: Array, hand: Array, target: Array) -> tuple[Array, Array]:
+    """Split norms of the task's error into position errors and angle errors.
+
+    Args:
+        law: The control law.
+        error: (N,) norms over the task's rows, m and rad.
+        hand: (N, 4, 4) tool poses, or whatever where the task has no angular row.
+        target: (N, 4, 4) targets, likewise.
+
+    Returns:
+        (N,) m, and (N,) rad, which is 0 where the task has no angular row.
+    """
+    if not law.task.angular:
+        return np.asarray(error), np.zeros(np.shape(error))
+    linear = np.linalg.norm(prescribed_way(law, hand, target), axis=1)
+    return linear, np.sqrt(np.maximum(error**2 - linear**2, 0.0))
+
+
 def own_units(law: Law, error: Array, hand: Array, target: Array) -> Array:
     """Norms of errors (N,), m and rad, with lengths in units of the arm's own; places and targets as they have them."""
-    unit = law.arm.length_unit
-    if not law.task.angular:
-        return np.asarray(error / unit)
-    linear = np.linalg.norm(prescribed_way(law, hand, target), axis=1)
-    return np.asarray(np.hypot(linear / unit, np.sqrt(np.maximum(error**2 - linear**2, 0.0))))
+    linear, angular = split_errors(law, error, hand, target)
+    return np.asarray(np.hypot(linear / law.arm.length_unit, angular))
 
 
 def known_at(here: Here) -> dict[str, SX]:

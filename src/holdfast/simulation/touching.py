@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.contacts import Contact, first_contacts
 from holdfast.notice import each
-from holdfast.simulation.runs import Outcome, Reason, Runs
+from holdfast.simulation.runs import Reason, Runs
 
 Array = NDArray[np.float64]
-
-ENDLESS = 200.0  # 1/Ke: so far a run is looked at that never stops
 
 _ENDS = ("code", "q_final", "x_final", "error", "closest", "path_length", "q_low", "q_high", "limits_passed", "time")
 
@@ -22,13 +20,12 @@ _ENDS = ("code", "q_final", "x_final", "error", "closest", "path_length", "q_low
 def with_contacts(runs: Runs, clearance: Clearance, stop: bool) -> Runs:
     """The same runs with what they touch; stopped there if they are to, and otherwise unchanged.
 
-    Every run is made once more, one after the other, to be looked at; of one that never stops the first 200/Ke.
+    Every run is simulated again, one after the other; of one that repeats its motion the first 200/Ke are checked.
     """
     found: list[Contact] = []
     for k in each("runs looked at for contacts", range(len(runs))):
         if runs.reason[k] != Reason.BAD_INPUT:
-            circles = runs.code[k] == Outcome.MOVING and not runs.cycles
-            end = min(float(runs.time[k]), ENDLESS / runs.law.gain if circles else np.inf)
+            end = runs.checked_until(k)
             time, at = runs._motion.recorded(runs, k, end)
             time = np.unique(np.minimum(time, end))
             found += [replace(contact, run=k) for contact in first_contacts(clearance, time, at(time), at)]

@@ -81,8 +81,9 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         InputError: A law that is not known, or no target.
     """
     from holdfast.arm.poses import pose_of
+    from holdfast.present.simulation.errors import error_text
     from holdfast.simulation.closed_loop import simulate
-    from holdfast.simulation.runs import Outcome
+    from holdfast.simulation.errors import error_history
 
     if state.target is None:
         raise InputError("there is no target; choose one first")
@@ -95,10 +96,11 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         progress(2 * k + 1, 4)
         # The last approach to rest takes most of the time and moves nothing.
         path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain) or None)
-        off = f"error {float(runs.error):.2g}" + (" m and rad" if law.task.angular else " m")
+        history = error_history(runs)
+        off = f"error {error_text(law, history.end.position, history.end.angle)}"
         past = [name for name, passed in zip(state.names, runs.limits_passed, strict=True) if passed]
         limits = f", past the limits of {' and '.join(past)}" if past else ""
-        motions.append(Motion(f"{text}: {Outcome(int(runs.code)).sentence}{limits} ({off})", path.time, "s", path.q))
+        motions.append(Motion(f"{text}: {runs.ending_sentence()}{limits} ({off})", path.time, "s", path.q))
     return motions
 
 

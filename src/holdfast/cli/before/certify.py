@@ -67,7 +67,7 @@ def reach(
     model = chain.arm(arm)
     claim = hf.certificates.reach_claim(
         model,
-        **targets.read(degrees),
+        **targets.read(),
         locked=None if lock is None else intervals(model, "--lock", [lock], degrees),
         limits=intervals(model, "--limit", limit, degrees),
     )
@@ -97,7 +97,7 @@ def out_of_reach(
     model = chain.arm(arm)
     claim = hf.certificates.out_of_reach_claim(
         model,
-        **targets.read(degrees),
+        **targets.read(),
         locked=None if lock is None else intervals(model, "--lock", [lock], degrees),
         limits=intervals(model, "--limit", limit, degrees),
     )
@@ -131,7 +131,7 @@ def tolerant(
     texts = [*(_ranges_of(ranges) if ranges is not None else []), *(range_ or [])]
     claim = hf.certificates.tolerant_claim(
         model,
-        **targets.read(degrees),
+        **targets.read(),
         working_ranges=intervals(model, "--range", texts, degrees),
         failures=read_failures(model, failures),
     )

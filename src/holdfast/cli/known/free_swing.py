@@ -29,6 +29,7 @@ def command(
 ) -> None:
     """Simulate a joint that swings freely under gravity (needs the extra 'physics').
 
+    This is a failed drive, not a power loss: a power loss frees all joints at once, and the tool drops further.
     Brakes are assumed to stop the joint at once.
 
     Example: holdfast free-swing panda --q "0 -45 0 -135 0 90 45" --degrees --joint 4 --brake 50 --brake 100

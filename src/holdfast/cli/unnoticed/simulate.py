@@ -23,7 +23,8 @@ def command(
     start: Annotated[str, "Joint values at the start, rad and m, by commas or spaces."],
     target: TargetOption,
     lock: Annotated[
-        list[str] | None, "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles). May be given again."
+        list[str] | None,
+        "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --notice a fault. May be given again.",
     ] = None,
     failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
@@ -62,13 +63,16 @@ def command(
     q0 = read_configuration(made.arm, start, degrees, "--start")
     drawn_faults = None if faults is None else hf.faults.load(faults)
     if physics and (drawn_faults is not None or notice is not None or record is not None):
-        _refuse({"--lock": lock, "--failure": failure, "--cycles": cycles, "--stop-at-contact": stop_at_contact})
+        _refuse({"--failure": failure, "--cycles": cycles, "--stop-at-contact": stop_at_contact})
+        if lock and drawn_faults is not None:
+            _refuse({"--lock": lock})
+        locks = [hf.faults.FaultEvent("locked", made.arm.joint_names[k], t) for k, t in zip(joints, times, strict=True)]
         watch = None if notice is None else hf.diagnosis.Monitor(made.arm, hf.diagnosis.load(notice))
         found = hf.simulate_faults(
             made,
             q0,
             goal,
-            faults=() if drawn_faults is None else drawn_faults,
+            faults=locks if drawn_faults is None else drawn_faults,
             episode=episode,
             monitor=watch,
             clearance=touched.read(made.arm),

@@ -159,7 +159,8 @@ def _outcomes(c: LawComparison) -> list[Block]:
         Picture(
             image,
             f"How {counted(len(c), 'motion')} ended under each law, healthy and with each joint locked from the start. Bars "
-            "end at 1; converged: at the target; stuck: stopped elsewhere; moving: never stops.",
+            "end at 1; converged: at the target; stuck: stopped elsewhere; moving: never stops, as it repeats its motion; "
+            "undecided: mostly still moving at the time limit.",
         ),
         Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True),
     ]
@@ -232,8 +233,9 @@ def _touches(c: LawComparison) -> list[Block]:
     found = touch_rows(c)
     caption = (
         f"{counted(len(c), 'motion')} each; exact intervals. Looked at from instant to instant, and between them until half a "
-        "millimetre is all that could change; of a run that never stops the first 200/Ke. Distances are lower bounds: at most "
-        "so many touch, and no contact is missed. In brackets: of all runs, those that touch it first."
+        "millimetre is all that could change; of a run that repeats its motion the first 200/Ke. "
+        "Distances are lower bounds: at most so many touch, and no contact is missed. "
+        "In brackets: of all runs, those that touch it first."
     )
     return [Table([list(row) for row in found.rows], found.head, frozenset(range(2, 5)), caption=caption, wide=True)]
 

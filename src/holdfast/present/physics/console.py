@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from holdfast.present.clearance.contacts import contact_entries, contact_table
 from holdfast.present.printing import Rows, number, print_rows
 from holdfast.present.simulation import console as simulation
+from holdfast.present.simulation.errors import error_text
+from holdfast.simulation.errors import error_history
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -39,17 +41,20 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
     return run.kinematic.to_dict() | {"physics": physics}
 
 
-def _error_unit(run: PhysicalRun) -> str:
-    return "m and rad" if run.law.task.angular else "m"
+def _last_errors(run: PhysicalRun) -> tuple[str, str]:
+    """Return the last errors, kinematic and in MuJoCo."""
+    history, (position, angle) = error_history(run.kinematic), run.errors_apart
+    law, end = run.law, history.end
+    return error_text(law, end.position, end.angle), error_text(law, float(position[-1]), float(angle[-1]))
 
 
 def key_table(run: PhysicalRun) -> Rows:
     """Both outcomes beside each other."""
     told = run.kinematic
     rows = [
-        ["outcome", str(told.outcome), run.outcome],
-        [f"error at the end, {_error_unit(run)}", number(float(told.error)), number(run.error[-1])],
-        ["took, s", number(float(told.time)), number(run.time[-1])],
+        ["outcome", str(told.outcome), run.ending],
+        ["error at the end", *_last_errors(run)],
+        ["simulated time, s", number(float(told.time)), number(run.time[-1])],
         ["tool paths apart, at most, mm", "", number(1000 * run.path_distance, 3)],
     ]
     if run.contacts is not None:
@@ -77,10 +82,9 @@ def show(run: PhysicalRun, out: Console) -> None:
     simulation.show(told, out)
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
     table = Grid("", "kinematic", "in MuJoCo", "")
-    reason = "" if run.reason == "none" else f" ({run.reason})"
-    table.add_row("outcome", str(told.outcome), f"[bold]{run.outcome}[/]{reason}", "")
-    table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), _error_unit(run))
-    table.add_row("took", number(float(told.time)), number(run.time[-1]), "s")
+    table.add_row("outcome", str(told.outcome), f"[bold]{run.ending}[/]", "")
+    table.add_row("error at the end", *_last_errors(run), "")
+    table.add_row("simulated time", number(float(told.time)), number(run.time[-1]), "s")
     out.print(table)
     facts = Grid()
     facts.add_row("tool paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")

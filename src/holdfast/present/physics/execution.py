@@ -51,7 +51,7 @@ def to_dict(run: Execution) -> dict[str, Any]:
 
 def tables(run: Execution) -> list[Rows]:
     """What was asked for beside what was measured, and what was touched."""
-    rows = [["took, s", number(run.time[-1])]]
+    rows = [["simulated time, s", number(run.time[-1])]]
     if run.goal_distance is not None:
         rows.append(["tool off the goal, mm", hardly(1000 * run.goal_distance)])
     if run.goal_turn is not None:

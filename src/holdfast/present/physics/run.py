@@ -45,28 +45,32 @@ def figures(run: PhysicalRun) -> dict[str, Figure]:
     spread = np.ptp(np.vstack([run.x, told.x]), axis=0)
     a, b = sorted(np.argsort(spread)[-2:])
     with style.style():
-        drawn = Figure(figsize=(1.25 * style.WIDTH, 4.1))
-        path, error, lag = drawn.subplots(1, 3)
+        drawn = Figure(figsize=((1.6 if run.law.task.angular else 1.25) * style.WIDTH, 4.1))
+        angular = run.law.task.angular
+        path, error, *turn, lag = drawn.subplots(1, 4 if angular else 3)
         path.plot(told.x[:, a], told.x[:, b], color=style.SKY, linewidth=4.5, label="kinematic")
         path.plot(run.x[:, a], run.x[:, b], color=style.BLUE, linewidth=1.4, label="in MuJoCo")
         path.plot(*run.x[0, [a, b]], "o", color=style.INK, markersize=4, label="start")
         path.plot(*told.x[-1, [a, b]], "s", color=style.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end")
         path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the end effector")
         path.set_aspect("equal", adjustable="datalim")
-        size = "m and rad" if run.law.task.angular else "m"
-        error.plot(told.time, told.error, color=style.SKY, linewidth=4.5)
-        error.plot(run.time, run.error, color=style.BLUE, linewidth=1.4)
-        error.set(xlabel="time, s", ylabel=f"error of the end effector, {size}", title="Error", ylim=(0, None))
+        position, angle = run.errors_apart
+        for axes in (error, *turn):
+            factor, unit = (1000.0, "distance from the target, mm") if axes is error else (180 / np.pi, "angle, degrees")
+            kinematic, physical = (told.position_error, position) if axes is error else (told.angle_error, angle)
+            axes.plot(told.time, factor * kinematic, color=style.SKY, linewidth=4.5)
+            axes.plot(run.time, factor * physical, color=style.BLUE, linewidth=1.4)
+            axes.set(xlabel="time, s", ylabel=unit, title="Error", ylim=(0, None))
         healthy = np.where(run.locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
         unit = "m or rad" if arm.prismatic.any() else "rad"
         lag.plot(run.time, np.maximum(healthy, 1e-9), color=style.BLUE, linewidth=1.2)
         lag.set(xlabel="time, s", ylabel=f"largest servo error of a healthy joint, {unit}", title="Servos", yscale="log")
-        for axes in (error, lag):
+        for axes in (error, *turn, lag):
             axes.set_xlim(0, max(float(run.time[-1]), 1e-3))
         locked = [name for name, t in zip(arm.joint_names, run.kinematic.lock_time, strict=True) if np.isfinite(t)]
         caption = (
             f"{arm.name}, {run.law.name}, locked: {', '.join(locked) or 'none'}; one run. "
-            f"Kinematic: {run.kinematic.outcome}; in MuJoCo, {run.servos.describe()}: {run.outcome}"
+            f"Kinematic: {run.kinematic.outcome}; in MuJoCo, {run.servos.describe()}: {run.ending}"
         )
         style.legend_below(drawn, path, 4)
         drawn.suptitle(style.plain(caption, 200), fontsize=9, color=style.SOFT)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _CLOSE_UP = 1.5  # times the last brake time
 _FRAMES, _SEEN = 201, 0.01  # of a motion; of the farthest that it goes
 
+POWER_LOSS = "A power loss frees all joints at once, and then the tool drops further."
+
 
 def to_dict(swing: FreeSwing) -> dict[str, Any]:
     """What happened, and where the tool is when the brakes act."""
@@ -102,6 +104,7 @@ def show(swing: FreeSwing, out: Console) -> None:
                 f"{number(1000 * d.distance)} mm",
             )
         out.print(table)
+    out.print(f"All other joints are held. {POWER_LOSS}", soft_wrap=True)
     if swing.contacts:
         print_rows(out, contact_table(swing.contacts))
     elif swing.contacts is not None:
@@ -149,7 +152,7 @@ def story(swing: FreeSwing) -> Story:
     return Story(
         f"A free-swinging {failed.name} of {swing.arm.name}",
         f"{answer}.",
-        about="All other joints are held",
+        about=f"All other joints are held. {POWER_LOSS}",
         facts=[x for x in facts if x[0][:2] != "0 "],
         views=_moving(swing),
         figures={
@@ -161,7 +164,7 @@ def story(swing: FreeSwing) -> Story:
         ],
         method=[
             ("Friction", f"viscous, {friction}"),
-            ("Brakes", "are taken to stop the joint at once"),
+            ("Brakes", "are assumed to stop the joint at once"),
             ("Simulated", f"{number(swing.time[-1])} s, MuJoCo"),
             (
                 "Configuration",

@@ -11,7 +11,8 @@ from holdfast.present.notebook import variables
 from holdfast.present.printing import Rows
 from holdfast.regions.region import Region
 
-_BOX = (("x", "m"), ("y", "m"), ("z", "m"), ("roll", "deg"), ("pitch", "deg"), ("yaw", "deg"))
+_BOX = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
+_CONE = (*_BOX[:3], ("cosine of the angle from the axis", ""), ("direction about the axis", "deg"), ("turn about z", "deg"))
 
 
 def sentences(region: Region) -> list[str]:
@@ -25,13 +26,14 @@ def key_table(region: Region) -> Rows:
         return Rows(["", ""], [["poses", f"{len(region.listed):,}"]])
     if region.draw is not None:
         return Rows(["", ""], [["drawn by", getattr(region.draw[0], "__name__", "a function")]])
-    named = _BOX if region.kind == "box" else [(f"joint {k + 1}", "") for k in range(len(region.center))]
+    joints = [(f"joint {k + 1}", "") for k in range(len(region.center))]
+    named = {"box": _BOX, "cone": _CONE}.get(region.kind, joints)
     rows = []
     for (name, unit), center, size in zip(named, region.center, region.size, strict=True):
         ends = np.array([center - size / 2, center + size / 2])
         low, high = np.round(np.degrees(ends) if unit == "deg" else ends, 9) + 0.0
         rows.append([f"{name}{unit and ', '}{unit}", f"{low:.4g}", f"{high:.4g}"])
-    return Rows(["" if region.kind == "box" else "rad or m", "from", "to"], rows)
+    return Rows(["" if region.kind in ("box", "cone") else "rad or m", "from", "to"], rows)
 
 
 def picture(region: Region, about: str) -> str:

@@ -9,7 +9,9 @@ import numpy as np
 from holdfast.present.clearance.contacts import contact_entries, contact_table
 from holdfast.present.clearance.shape import shape_summary
 from holdfast.present.printing import Rows, alike, number, print_rows
-from holdfast.simulation.runs import Outcome, Reason, Runs
+from holdfast.present.simulation.errors import error_entries, error_rows
+from holdfast.simulation.errors import error_history
+from holdfast.simulation.runs import Reason, Runs
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -34,6 +36,7 @@ def to_dict(runs: Runs) -> dict[str, Any]:
         "error": runs.error,
         "least_error": runs.least_error(),
         "closest": runs.closest,
+        **({} if runs.code.ndim or runs.reason == Reason.BAD_INPUT else error_entries(runs, error_history(runs))),
         "path_length_m": runs.path_length,
         "x_final": runs.x_final,
         "q_start": by_joint(runs.q0),
@@ -58,8 +61,7 @@ def sentences(runs: Runs) -> list[str]:
     """How one run ended; of many how often which."""
     if runs.code.ndim:
         return runs.describe()
-    why = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
-    ended = f"The end effector {Outcome(int(runs.code)).sentence}{why}."
+    ended = f"The end effector {runs.ending_sentence()}."
     return [
         x
         for x in (ended, runs.limits_sentence(), runs.contact_sentence(), f"Arm {runs.law.arm.title}, {runs.law.describe()}.")
@@ -76,16 +78,16 @@ def key_table(runs: Runs) -> Rows:
         if runs.contacts is not None:
             rows.append(["touch something on the way", f"{len({c.run for c in runs.contacts}):,}"])
         return Rows(["outcome", "runs"], rows)
-    unit, size = "cycles" if runs.cycles else "s", "m and rad" if runs.law.task.angular else "m"
+    unit = runs.unit
     locks = [
         f"{name} at {t:g} {unit}" for name, t in zip(runs.law.arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)
     ]
     rows = [
         ["locked", ", ".join(locks) or "none"],
         ["outcome", str(runs.outcome)],
-        ["error at the end", f"{number(float(runs.error))} {size}"],
+        *[list(row) for row in error_rows(runs, error_history(runs))],
         ["path of the end effector", f"{number(float(runs.path_length))} m"],
-        ["took", f"{number(float(runs.time))} {unit}"],
+        [f"simulated {'cycles' if runs.cycles else 'time'}", f"{number(float(runs.time))} {unit}"],
     ]
     if runs.contacts is not None:
         rows.append(
@@ -117,20 +119,17 @@ def show(runs: Runs, out: Console) -> None:
     locks = [f"{name} at {t:g} {unit}" for name, t in zip(arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)]
     locked = f"locked: {', '.join(locks)}" if locks else "no joint locked"
     out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(locked)}", soft_wrap=True)
-    reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
-    out.print(f"The end effector [bold]{Outcome(int(runs.code)).sentence}[/]{escape(reason)}.", soft_wrap=True)
+    out.print(f"The end effector [bold]{escape(runs.ending_sentence())}[/].", soft_wrap=True)
     if limits := escape(runs.limits_sentence()):
         out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
     if touched := escape(runs.contact_sentence()):
         out.print(f"[yellow]{touched}[/]" if runs.contacts else touched, soft_wrap=True)
-    size = "m and rad" if runs.law.task.angular else "m"
     facts = Grid()
-    facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
-    facts.add_row("least error that the failed arm can have", f"{number(float(runs.least_error()))} {size}")
-    facts.add_row("least error on the way", f"{number(float(runs.closest))} {size}")
+    for what, value in error_rows(runs, error_history(runs)):
+        facts.add_row(what, value)
     facts.add_row("path of the end effector", f"{number(float(runs.path_length))} m")
-    facts.add_row("took", f"{number(float(runs.time))} {unit}")
     out.print(facts)
+    out.print(f"simulated time: {number(float(runs.time))} {unit}")
     table = Grid("joint", "start", "end", "least", "greatest", "")
     factors, units = zip(*(joint.shown for joint in arm.joints), strict=True)
     columns = [alike(factors * x, units) for x in (runs.q0, runs.q_final, runs.q_low, runs.q_high)]

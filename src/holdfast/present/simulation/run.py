@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path as File
 
 import numpy as np
@@ -18,6 +18,7 @@ from holdfast.present.arm.view import scene
 from holdfast.present.clearance.contacts import contact_table
 from holdfast.present.clearance.shape import shape_text
 from holdfast.present.results import as_table
+from holdfast.present.simulation.errors import error_rows, error_text
 from holdfast.present.stick_figure import views_of
 from holdfast.present.story import how
 from holdfast.report import page
@@ -25,13 +26,16 @@ from holdfast.report.figures import save_png, svg
 from holdfast.report.motions import Motion, Panel, drawn_motion, motion_figure
 from holdfast.report.page import Block, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples
+from holdfast.simulation.errors import ErrorHistory, error_history, least_errors
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs
 from holdfast.words import capitalised, number
 
 Array = NDArray[np.float64]
 
-SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn so far only
+REPEATED = 200.0  # 1/Ke: the part of a motion that repeats itself which is drawn
 _SAMPLES, _FRAMES = 1001, 201
+_DENSITY = 5  # samples of a whole run in 1/Ke, or in a cycle
+_MOST_SAMPLES = 20_001
 _REACHED = 1e-5  # an error below it counts as none
 _STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
 
@@ -58,15 +62,19 @@ def to_csv(runs: Runs, file: File, k: int) -> File:
     """The samples of run k as rows."""
     law, path = runs.law, _RunReport(runs, k).path
     time = "time_cycles" if runs.cycles else "time_s"
-    header = [time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"]
-    columns = [path.time, path.q, path.x, path.error]
+    header = [time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m"]
+    columns = [path.time, path.q, path.x]
+    if law.task.rows[:, :3].any():
+        header, columns = [*header, "position_error_mm"], [*columns, 1000 * path.position_error]
+    if law.task.angular:
+        header, columns = [*header, "angle_error_deg"], [*columns, np.rad2deg(path.angle_error)]
     if runs.clearance is not None:
         header, columns = [*header, "clearance_m"], [*columns, runs.clearance(path.q)]
     return write_table(file, "motion", header, np.column_stack(columns))
 
 
 class _RunReport:
-    """One run and what is drawn of it: all up to where nothing more can be seen, or to 200/Ke.
+    """One run and the part of it that is drawn: all, but the rest of a motion that has stopped or repeats itself.
 
     Args:
         runs: A single run, or many.
@@ -75,8 +83,7 @@ class _RunReport:
 
     def __init__(self, runs: Runs, k: int = 0) -> None:
         self.runs, self.k, self.arm = runs, k, runs.law.arm
-        self.unit = "cycles" if runs.cycles else "s"
-        self.size = "m and rad" if runs.law.task.angular else "m"
+        self.unit = runs.unit
         self._lock_time = np.atleast_2d(runs.lock_time)[k]
 
     def _of(self, name: str) -> Array:
@@ -84,30 +91,50 @@ class _RunReport:
         return np.asarray(value[self.k]) if self.runs.code.ndim else value
 
     @cached_property
-    def least(self) -> float:
-        """Least error that the failed arm can have, as far as was found."""
-        return float(np.atleast_1d(self.runs.least_error())[self.k])
+    def least(self) -> tuple[float, float]:
+        """Least position error, m, and angle error, rad, that the failed arm can have, as far as was found."""
+        return least_errors(self.runs, self.k)
 
-    @property
-    def longest(self) -> float:
-        """S or cycles, of what is written and drawn at most."""
-        time = float(self._of("time"))
-        return time if self.runs.cycles else min(time, SHOWN / self.runs.law.gain)
+    @cached_property
+    def errors(self) -> ErrorHistory:
+        """The errors over the whole run."""
+        return error_history(self.runs, self.k)
 
     @cached_property
     def path(self) -> Path:
-        """The run, sampled."""
-        return self.runs.path(self.k, _SAMPLES, until=self.longest or None)
+        """The whole run, sampled often enough to show every motion of it."""
+        samples = float(self._of("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _DENSITY
+        return self._sampled(int(np.clip(samples, _SAMPLES, _MOST_SAMPLES)), float(self._of("time")))
+
+    def _sampled(self, samples: int, until: float) -> Path:
+        return self.runs._motion.sampled(self.runs, self.k, self._at, np.linspace(0.0, until, samples))
+
+    @cached_property
+    def _at(self) -> Callable[[Array], Array]:
+        return self.runs._motion.recorded(self.runs, self.k, float(self._of("time")))[1]
 
     @cached_property
     def seen(self) -> Path:
-        """As much of it as there is to see, sampled."""
-        whole = self.path
-        away = np.flatnonzero((np.abs(whole.q - whole.q[-1]) > _STILL).any(axis=1))
-        if not away.size:
-            return whole
-        end = 1.03 * whole.time[min(away[-1] + 1, len(whole.time) - 1)]
-        return self.runs.path(self.k, _SAMPLES, until=min(float(end), self.longest))
+        """The part of the run that is drawn, sampled."""
+        whole, end = self.path, float(self._of("time"))
+        if self._of("code") == Outcome.MOVING:
+            end = min(end, REPEATED / self.runs.law.gain)
+        elif self._of("code") != Outcome.UNDECIDED:
+            away = np.flatnonzero((np.abs(whole.q - whole.q[-1]) > _STILL).any(axis=1))
+            if away.size:
+                end = min(1.03 * float(whole.time[min(away[-1] + 1, len(whole.time) - 1)]), end)
+        return self._sampled(_SAMPLES, end)
+
+    @property
+    def omitted(self) -> str:
+        """A sentence about the part of the run that is not drawn; empty where all is drawn."""
+        shown, whole = float(self.seen.time[-1]), float(self._of("time"))
+        if shown >= 0.99 * whole:
+            return ""
+        rest = (
+            "the arm repeats its motion" if self._of("code") == Outcome.MOVING else "no joint moves by more than 0.001 rad or m"
+        )
+        return f"Drawn are the first {number(shown)} of {number(whole)} {self.unit}; after them {rest}."
 
     @property
     def standing(self) -> list[str]:
@@ -118,35 +145,47 @@ class _RunReport:
     @property
     def headline(self) -> str:
         """How it ended, and whether joints passed their limits on the way: two facts."""
-        code, error, least = Outcome(int(self._of("code"))), float(self._of("error")), self.least
-        far, took = f"{number(error)} {self.size}", f"{number(float(self._of('time')))} {self.unit}"
+        code, least, end = Outcome(int(self._of("code"))), self.least, self.errors.end
+        far, took = self._text(end.position, end.angle), f"{number(float(self._of('time')))} {self.unit}"
         names = " and ".join(x.replace(f" at 0 {self.unit}", " at the start") for x in self.standing)
         locked = (
             f"With a lock of {names} that its controller does not know of, the arm" if names else "With no joint locked the arm"
         )
-        out = least > _REACHED
+        out = max(least) > _REACHED
         told = {
-            Outcome.CONVERGED: f"{locked} reaches its target, after {took}",
+            Outcome.CONVERGED: f"{locked} reaches its target, after {took} (simulated time)",
             Outcome.STUCK: f"{locked} stops {far} off its target",
-            Outcome.MOVING: f"{locked} never stops: after {took} it is {far} off its target",
-            Outcome.UNDECIDED: (
-                f"{locked} is {far} off its target when the run ends, undecided: {Reason(int(self._of('reason'))).sentence}"
-            ),
+            Outcome.MOVING: f"{locked} never stops: it repeats its motion, and after {took} it is {far} off its target",
+            Outcome.UNDECIDED: f"{locked} {self.runs.ending_sentence(self.k)}, {far} off its target",
         }[code]
+        if code == Outcome.UNDECIDED and self._of("reason") != Reason.TIME_LIMIT:
+            told = f"{locked} is {far} off its target when the run ends, undecided: {Reason(int(self._of('reason'))).sentence}"
         if code != Outcome.CONVERGED:
-            told += f"; with what is locked it could not come closer than {number(least)} {self.size}" if out else ""
-            told += "; it could get there with what is locked" if not out and self.standing else ""
+            told += f"; with this lock it cannot come closer than {self._text(*least)}, as far as was found" if out else ""
+            told += "; it could reach the target with this lock" if not out and self.standing else ""
         return " ".join(x for x in (f"{told}.", self.runs.limits_sentence(self.k), self.runs.contact_sentence(self.k)) if x)
 
     def _facts(self) -> list[tuple[str, str]]:
-        facts = [
-            (float(self._of("error")), self.size, "off the target at the end"),
-            (self.least, self.size, "the least error that the failed arm can have, as far as was found"),
+        errors, since = self.errors, "after the lock" if self.standing else "after the start"
+        measures = [
+            (errors.end.position, errors.end.angle, "off the target at the end"),
+            (
+                errors.largest_position.position,
+                errors.largest_angle.angle,
+                f"largest distance and angle from the target {since}",
+            ),
+            (*self.least, "the least error that the failed arm can have, as far as was found"),
+        ]
+        facts = [(self._text(x, y), words) for x, y, words in measures if max(x, y) > _REACHED]
+        numbers = [
             (float(self._of("path_length")), "m", "path of the tool"),
-            (float(self._of("time")), self.unit, "until the run ended"),
+            (float(self._of("time")), self.unit, "simulated time"),
             *[(c.time, self.unit, f"until {c.link} touches {c.object}") for c in self.contacts[:1]],
         ]
-        return [(f"{number(value)} {unit}", words) for value, unit, words in facts if value > _REACHED]
+        return facts + [(f"{number(value)} {unit}", words) for value, unit, words in numbers if value > _REACHED]
+
+    def _text(self, position: float, angle: float) -> str:
+        return error_text(self.runs.law, position, angle)
 
     @property
     def contacts(self) -> list[Contact]:
@@ -167,16 +206,22 @@ class _RunReport:
         wanted = target[:3, 3] if target.shape == (4, 4) else target @ linear
         return np.asarray(start + into @ (wanted - start))
 
-    def panel(self) -> Panel:
-        """The error over time, with the locks."""
-        seen = self.seen
-        moments = []
-        for name, t in zip(self.arm.joint_names, self._lock_time, strict=True):
-            if t <= seen.time[-1]:
-                moments.append((float(t), float(np.interp(t, seen.time, seen.error)), f"{name} locks"))
-        level = (self.least, "least error of the failed arm") if self.least > 1e-6 else None
+    def panels(self) -> list[Panel]:
+        """The position error and the angle error over time, as far as the task prescribes them, with the locks."""
+        seen, task = self.seen, self.runs.law.task
+        position = ("distance from the target, mm", 1000 * seen.position_error, 1000 * self.least[0])
+        angle = ("angle from the target, degrees", np.rad2deg(seen.angle_error), float(np.rad2deg(self.least[1])))
         title = f"Ends {self._of('outcome')}" + ", past a joint limit" * bool(self._of("limits_passed").any())
-        return Panel(seen.time, seen.error, f"error of the end effector, {self.size}", title, level, tuple(moments), log=True)
+        panels = []
+        for label, values, least in [position] * bool(task.rows[:, :3].any()) + [angle] * bool(task.angular):
+            moments = tuple(
+                (float(t), float(np.interp(t, seen.time, values)), f"{name} locks")
+                for name, t in zip(self.arm.joint_names, self._lock_time, strict=True)
+                if t <= seen.time[-1]
+            )
+            level = (least, "least error of the failed arm") if least > 1e-3 else None
+            panels.append(Panel(seen.time, values, label, title, level, moments, log=True))
+        return panels
 
     @property
     def caption(self) -> str:
@@ -190,7 +235,7 @@ class _RunReport:
         chain = self.arm.frames(seen.q[self.few])[..., :3, 3]
         square, locked = (np.r_[False, x, False] for x in (self.arm.prismatic, seen.locked[-1]))
         motion = Motion(chain, square, np.array([seen.x[0], self.goal]), locked, self.goal)
-        return drawn_motion(motion, views_of(self.arm, chain), self.panel(), self.caption, self._xlabel)
+        return drawn_motion(motion, views_of(self.arm, chain), self.panels()[0], self.caption, self._xlabel)
 
     @property
     def _xlabel(self) -> str:
@@ -215,7 +260,7 @@ class _RunReport:
                 sections,
                 subtitle=f"{law}; locked: {', '.join(self.standing) or 'no joint'}",
                 facts=self._facts(),
-                method=how(self.arm, ("Law", law), ("Drawn", "all up to where nothing more can be seen, 200/Ke at most")),
+                method=how(self.arm, ("Law", law), ("Drawn", self.omitted or "The whole run.")),
                 again=command,
             ),
             file,
@@ -227,7 +272,8 @@ class _RunReport:
         for k in self.few:
             locked = names[seen.locked[k]]
             standing = f", locked: {', '.join(locked)}" if locked.size else ""
-            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {seen.error[k]:.3g} {self.size}{standing}")
+            error = self._text(float(seen.position_error[k]), float(seen.angle_error[k]))
+            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {error}{standing}")
         shown = scene(
             self.arm,
             seen.q[self.few],
@@ -240,16 +286,15 @@ class _RunReport:
             cell=None if self.runs.clearance is None else self.runs.clearance.cell,
         )
         caption = "The arm moving; joints turn orange when they lock. Orange line: the straight way to the target."
-        if seen.time[-1] < 0.99 * float(self._of("time")):
-            caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; no visible motion follows."
-        return Picture(shown.html("motion", f"{self.arm.name} moving"), caption)
+        return Picture(shown.html("motion", f"{self.arm.name} moving"), f"{caption} {self.omitted}".strip())
 
     def _error(self) -> Picture:
         seen = self.seen
         travelled = np.linalg.norm(seen.x - seen.x[0], axis=1)
-        panels = [self.panel(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
+        panels = [*self.panels(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
         figure = motion_figure(panels, self.caption, self._xlabel)
-        return Picture(svg(figure, "error", "Error of the end effector over time"), "Over time; the error on a log scale.")
+        caption = f"Over time; the error on a log scale. {self.omitted}".strip()
+        return Picture(svg(figure, "error", "Error of the end effector over time"), caption)
 
     def _joints(self) -> Picture:
         panels = []
@@ -265,7 +310,7 @@ class _RunReport:
             locked = " (locks)" if np.isfinite(self._lock_time[k]) else ""
             panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
         image = small_multiples(self.seen.time, panels, "Joint positions over time", self._xlabel)
-        return Picture(image, "Joint positions; dashed: a limit, where one is near.")
+        return Picture(image, f"Joint positions; dashed: a limit, where one is near. {self.omitted}".strip())
 
     def _touched(self) -> list[Block]:
         """How far the arm is from what it may touch, and every contact."""
@@ -282,12 +327,9 @@ class _RunReport:
         return [Picture(image, about), *table]
 
     def _numbers(self) -> list[Block]:
-        size = self.size
         rows = [
-            ("Error at the end", f"{number(float(self._of('error')))} {size}"),
-            ("Least error that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),
-            ("Least error on the way", f"{number(float(self._of('closest')))} {size}"),
+            *[(capitalised(what), value) for what, value in error_rows(self.runs, self.errors, self.k)],
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
-            ("Took", f"{number(float(self._of('time')))} {self.unit}"),
+            ("Simulated time", f"{number(float(self._of('time')))} {self.unit}"),
         ]
         return [Table(rows)]

@@ -45,7 +45,7 @@ def around(index: Index, hand: Array, size: float, progress: Callable[[int, int]
 
     half = np.radians(30)
     extent = np.r_[np.full(3, 0.5 * size), np.full(3, 2 * half)]
-    region = Region.box(hand[:3, 3], extent[:3], rpy_from_rotation(hand[:3, :3]), extent[3:])
+    region = Region.box(hand[:3, 3], extent[:3], rpy_from_rotation(hand[:3, :3]), extent[3:], order="abdi")
     found = assess(index.arm, region, index, poses=POSES, restarts=20, progress=progress, keep=True)
     return cloud_of(found, f"{POSES} poses within {100 * 0.25 * size:.0f} cm and 30 deg of the end effector")
 

@@ -7,10 +7,11 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import zyx_angles
 from holdfast.present.assessment.facts import Facts, Rows
+from holdfast.present.commands import pose_command
 from holdfast.probability.distribution import Distribution
 from holdfast.regions.region import Region
 from holdfast.report import figures, maps
-from holdfast.report.page import Block, Picture, Table, Text
+from holdfast.report.page import Block, Code, Picture, Table, Text
 from holdfast.report.views import sides
 from holdfast.words import counted, fixed, number
 
@@ -31,7 +32,8 @@ def blocks(f: Facts) -> list[Block]:
         return []
     if f.nothing:
         return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
-    blocks: list[Block] = [_worst_table(f, d, r, name) for name, d, r in f.samples if r is not None and r.reached.any()]
+    known = [(name, d, r) for name, d, r in f.samples if r is not None and r.reached.any()]
+    blocks: list[Block] = [block for name, d, r in known for block in (_worst_table(f, d, r, name), *_worst_commands(f, r))]
     views = sides(rows.position, ("Seen from the side", "Seen from above"))
     if int(rows.reached.sum()) < _LEAST_FOR_MAP or not views:
         return blocks
@@ -59,20 +61,34 @@ def blocks(f: Facts) -> list[Block]:
     return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
 
 
-def _worst_table(f: Facts, d: Distribution, rows: Rows, name: str) -> Table:
+def _worst(f: Facts, rows: Rows) -> NDArray[np.intp]:
     some = np.flatnonzero(rows.reached)
     order = np.argsort(rows.value[some] if f.larger else -rows.value[some], kind="stable")
+    return np.asarray(some[order[:10]])
+
+
+def _worst_commands(f: Facts, rows: Rows) -> list[Block]:
+    """The commands that look for the best configuration of each of the worst poses."""
+    if f.a.region.kind == "joints":
+        return []
+    poses = np.tile(np.eye(4), (len(chosen := _worst(f, rows)), 1, 1))
+    poses[:, :3, 3], poses[:, :3, :3] = rows.position[chosen], rows.rotation[chosen]
+    commands = "\n".join(pose_command(f.a.arm, pose) for pose in poses)
+    return [Code(commands, "The same poses, in the same order, as commands:")]
+
+
+def _worst_table(f: Facts, d: Distribution, rows: Rows, name: str) -> Table:
+    some, chosen = np.flatnonzero(rows.reached), _worst(f, rows)
     labels = f.failure_labels
-    chosen = some[order[:10]]
     angles = np.rad2deg(_angles(rows.rotation[chosen], f.a.region))
     cells = []
     for k, rpy in zip(chosen, angles, strict=True):
         worst = labels[rows.worst[k]] if rows.worst[k] >= 0 else "singular"
-        place = [*(fixed(x, 3) for x in rows.position[k]), *(fixed(x, 1) for x in rpy)]
+        place = [*(fixed(x, 3) for x in rows.position[k]), *(fixed(x, 1) for x in rpy[::-1])]
         cells.append([f"{rows.number[k] + 1:,}", *place, number(float(rows.value[k])), worst])
     head = [f.noun.capitalize(), "x, m", "y, m", "z, m", "roll, deg", "pitch, deg", "yaw, deg", "index", "worst failure"]
     which = f", {name}" if f.a.optimised is not None else ""
-    caption = f"The {len(chosen)} worst of {len(some):,} {f.reached}{which}; R = Rz(roll) Ry(pitch) Rx(yaw)."
+    caption = f"The {len(chosen)} worst of {len(some):,} {f.reached}{which}; R = Rz(yaw) Ry(pitch) Rx(roll)."
     if d.unreached:
         caption += f" The {counted(d.unreached, 'pose')} without one count as worse still and are not listed."
     return Table(cells, head, frozenset(range(8)), caption=caption, wide=True)
