@@ -17,6 +17,7 @@ from holdfast.faults.entry import SENSOR
 from holdfast.faults.events import FaultEvent
 from holdfast.faults.feasibility import Feasibility, feasible
 from holdfast.faults.injector import FaultInjector
+from holdfast.faults.learning.physics_calls import PhysicsCalls
 from holdfast.faults.learning.recording import Recorder
 from holdfast.faults.scheme import Faults, Jointed
 
@@ -108,6 +109,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self._mujoco = import_mujoco()
         model, data = _found(env.unwrapped)
         self.injector = FaultInjector(model, data, joints, faults=faults, horizon=horizon)
+        self._physics = PhysicsCalls(self.injector)
         self._arm, self._goal, self._reveal = arm, goal, reveal
         self._observes, self._given, self._episode = dict(observes or {}), observes is not None, -1
         self._rows = model.jnt_qposadr[[model.joint(name).id for name in self.injector.joints]]
@@ -128,6 +130,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             self.injector = FaultInjector(
                 model, data, self.injector.joints, faults=self.injector.faults, horizon=self.injector.horizon
             )
+            self._physics = PhysicsCalls(self.injector)
         self.injector.reset(self._episode)
         self._fresh()
         if self._sensors:
@@ -137,10 +140,17 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """The environment's step with the faults that have begun."""
         injector = self.injector
-        injector.before_step(injector.data.time)
+        injector.advance(injector.data.time)
         if self._dropouts:
             action = self._held(action)
-        observation, reward, terminated, truncated, info = self.env.step(action)
+        time, count = injector.data.time, self._physics.count
+        with self._physics.watch():
+            observation, reward, terminated, truncated, info = self.env.step(action)
+        if self._physics.count == count and injector.data.time != time and injector.changes_model:
+            raise InputError(
+                f"{type(self.env.unwrapped).__name__} moves its model by other means than mujoco.mj_step, so its faults do not "
+                "act; write the loop with holdfast.faults.FaultInjector"
+            )
         if self._sensors:
             injector.time = injector.data.time
             observation = self._seen(observation)
