@@ -55,6 +55,8 @@ LOCK_FORCES += (
     "ifrc_",
     "iefc_",
     "island",
+    "nisland",
+    "tree_island",
     "map_",
     "dof_island",
     "timer",
