@@ -107,6 +107,7 @@ class FaultInjector:
         self.events = FaultEvents()
         self.applied: dict[FaultEvent, float] = {}
         self.reset(0)
+        self._check_entries()
 
     def reset(self, episode: int = 0) -> FaultEvents:
         """Undo everything, and draw what happens in an episode; events that were given happen in each.
@@ -254,6 +255,16 @@ class FaultInjector:
                 low, high = self._arm[event.joint].lower, self._arm[event.joint].upper
             if not low <= at <= high:
                 raise InputError(f"'{event.joint}' locks at {at:g}, beyond its limits {low:g} and {high:g}")
+
+    def _check_entries(self) -> None:
+        """Refuse a fault model with a fault that some later episode could draw and the model cannot have."""
+        for entry in self.faults.entries if isinstance(self.faults, Faults) else ():
+            names = entry.joints or self.joints
+            weights = entry.weights or (1.0,) * len(names)
+            for name in (name for name, weight in zip(names, weights, strict=True) if weight > 0 and entry.probability > 0):
+                for end in (0, 1):
+                    numbers = {key: law if isinstance(law, str) else law.ends[end] for key, law in entry.parameters.items()}
+                    self._check(FaultEvent(entry.kind, name, 0.0, parameters=numbers))
 
     def _look(self) -> None:
         """When something begins or ends next, and what has work at every step."""
