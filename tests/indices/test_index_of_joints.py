@@ -8,7 +8,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.errors import InputError, TaskError
-from holdfast.indices import CustomIndex, inertia_matrix, singular_values
+from holdfast.indices import CustomIndex, compute_inertia_matrix, compute_singular_values
 
 
 def test_a_weighted_jacobian_against_numpy_and_finite_differences(rng):
@@ -34,7 +34,7 @@ def test_the_inertia_matrix_is_that_of_the_inverse_dynamics(rng):
     arm = hf.arms.load("panda")
     q = rng.uniform(-1, 1, 7)
     symbols = ca.SX.sym("q", 7)
-    mass = np.array(ca.Function("mass", [symbols], [inertia_matrix(arm, symbols)])(q))
+    mass = np.array(ca.Function("mass", [symbols], [compute_inertia_matrix(arm, symbols)])(q))
     zero = np.zeros(7)
     columns = [arm.torque_terms(q, zero, e)[0] for e in np.eye(7)]
     assert mass == pytest.approx(np.array(columns).T, abs=1e-12)
@@ -44,7 +44,7 @@ def test_the_inertia_matrix_is_that_of_the_inverse_dynamics(rng):
 @pytest.mark.parametrize("m", [1, 3, 6])
 def test_singular_values_and_their_slopes(m, rng):
     symbols = ca.SX.sym("a", m, 7)
-    values = singular_values(symbols)
+    values = compute_singular_values(symbols)
     both = ca.Function("s", [symbols], [values, ca.jacobian(ca.sum1(values), symbols)])
     a = rng.normal(size=(m, 7))
     found, slope = (np.array(x) for x in both(a))
@@ -52,7 +52,7 @@ def test_singular_values_and_their_slopes(m, rng):
     assert np.sort(found.ravel())[::-1] == pytest.approx(sigma, rel=1e-10)
     assert pytest.approx(u @ vt, abs=1e-9) == slope.reshape(7, m).T  # the gradient of the nuclear norm
     with pytest.raises(InputError, match="the matrix has shape 7x7; it must have 1 to 6 rows"):
-        singular_values(ca.SX.sym("b", 7, 7))
+        compute_singular_values(ca.SX.sym("b", 7, 7))
 
 
 def test_an_error_of_the_formula_is_told_in_one_sentence():

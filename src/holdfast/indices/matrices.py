@@ -14,7 +14,7 @@ _SWEEPS = 6
 _MAX_ROWS = 6
 
 
-def inertia_matrix(arm: Machine, q: SX) -> SX:
+def compute_inertia_matrix(arm: Machine, q: SX) -> SX:
     """Compute the joint-space inertia matrix, payload and armature included.
 
     Args:
@@ -31,7 +31,7 @@ def inertia_matrix(arm: Machine, q: SX) -> SX:
     return ca.jacobian(inertial_torques(arm, q, ca.SX.zeros(arm.n), acceleration), acceleration)
 
 
-def singular_values(matrix: SX) -> SX:
+def compute_singular_values(matrix: SX) -> SX:
     """Compute the singular values of a matrix by Jacobi rotations of its rows; the result can be differentiated.
 
     The eigenvalues of ``matrix @ matrix.T`` are the squares.

@@ -167,7 +167,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             info["fault"] = self.fault
         if self._recorder is not None:
             self._note(action, reward)
-            self._success = next((bool(info[key]) for key in ("is_success", "success") if key in info), None)
+            self._success: bool | None = next((bool(info[key]) for key in ("is_success", "success") if key in info), None)
             if terminated or truncated:
                 self._finish("terminated" if terminated else "truncated")
         return observation, reward, terminated, truncated, info
@@ -213,9 +213,9 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         kinds = {event.kind for event in self.injector.events}
         self._sensors, self._dropouts = bool(kinds & SENSOR), "command_dropout" in kinds
         self._last: Array | None = None
-        self._success: bool | None = None
+        self._success = None
         self._verdict: Feasibility | None = None
-        self.fault = FaultInfo(self.injector, self._judged)
+        self.fault: FaultInfo = FaultInfo(self.injector, self._judged)
         if self._dropouts and self.env.action_space.shape != (self.injector.model.nu,):
             raise InputError("a dropout needs actions that are the actuators' controls; this environment has others")
 
