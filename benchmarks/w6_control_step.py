@@ -165,7 +165,7 @@ def by_mink(q: np.ndarray, twist: np.ndarray) -> Step:
     def step(i: int) -> np.ndarray:
         configuration.update(q[i])
         hand.set_target(goals[i])
-        return mink.solve_ik(configuration, tasks, PERIOD, task="daqp", limits=limits)
+        return mink.solve_ik(configuration, tasks, PERIOD, solver="daqp", limits=limits)
 
     return step
 

@@ -11,7 +11,9 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
 from holdfast.present.arm.body import ball, block, box, stick_parts, tube
+from holdfast.present.arm.view import scene
 from holdfast.present.arm.visuals import body_of, visual_parts
+from holdfast.report.viewer import with_library
 from holdfast.shapes.meshes import find_mesh
 from holdfast.studio.scene.machine import Machine
 
@@ -52,7 +54,7 @@ def test_visuals_are_where_the_file_puts_them():
     arm = arms.resolve(str(CRANE))
     machine = Machine(arm, as_task(arm, "pose"))
     parts, missing = visual_parts(arm)
-    assert missing == [(6, "package://inspection_crane/meshes/camera.stl")]
+    assert missing == [(6, "package://inspection_crane/meshes/camera.stl", False)]
     assert sorted({p.frame for p in parts}) == list(range(7))
     rail = next(p for p in parts if p.frame == 0)
     np.testing.assert_allclose(rail.vertices.max(axis=0) - rail.vertices.min(axis=0), [0.3, 1.6, 0.08])
@@ -107,3 +109,15 @@ def test_a_built_in_arm_and_a_missing_file_have_sticks():
     parts, note = body_of(arms.resolve(str(CRANE)), 1.0)
     assert "camera.stl" in note
     assert {p.frame for p in parts} == set(range(8))
+
+
+def test_a_mesh_that_is_there_and_cannot_be_read_is_not_called_missing_and_noted_once(tmp_path):
+    file = tmp_path / "crane.urdf"
+    file.write_text(CRANE.read_text().replace("package://inspection_crane/meshes/camera.stl", "camera.stl"))
+    (tmp_path / "camera.stl").write_text("solid camera")
+    arm = hf.arms.resolve(str(file))
+    _, note = body_of(arm, 1.0)
+    assert note.startswith("of the file's meshes 1 found but not readable, such as camera.stl (")
+    shown = scene(arm, [0.0] * arm.n)
+    page = with_library(f"<head></head><body>{shown.html('one', 'a')}{shown.html('two', 'b')}</body>")
+    assert page.count("found but not readable") == 1

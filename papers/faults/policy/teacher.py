@@ -41,7 +41,6 @@ class Teacher:
         import mujoco
 
         self._mujoco, self._env, self._knows, self._given, self._weight = mujoco, env, knows, part, rotation
-        env.injector.restore()  # faults of an episode before
         model = env.unwrapped.model
         self._body = model.body("tips_arm").id
         self._healthy = (*model.jnt_range[:N].T.copy(), model.dof_damping[:N].copy(), np.zeros(N))
@@ -127,8 +126,11 @@ class Teacher:
         """Lower, upper, rad, damping, N m s/rad, and dry friction, N m, of the joints."""
         if not self._active("friction", "reduced_range"):
             return self._healthy
-        model = self._env.unwrapped.model
-        return (*model.jnt_range[:N].T, model.dof_damping[:N], model.dof_frictionloss[:N])
+        model, injector = self._env.unwrapped.model, self._env.injector
+        injector.insert()
+        limits = (*model.jnt_range[:N].T.copy(), model.dof_damping[:N].copy(), model.dof_frictionloss[:N].copy())
+        injector.restore()
+        return limits
 
 
 def _target(tip: Array, thing: Array, way: Array) -> tuple[Array, float]:

@@ -106,8 +106,8 @@ class Shape:
             h.update(repr((p.link, p.owner, p.kind, p.size)).encode())
             for numbers in (p.pose, p.vertices, p.faces):
                 h.update(np.ascontiguousarray(numbers).tobytes())
-        for link, what in self.missing:
-            h.update(repr((link, what)).encode())
+        for shape in self.missing:
+            h.update(repr((shape.link, shape.what)).encode())
         return h.hexdigest()
 
 

@@ -20,6 +20,8 @@ from holdfast.faults.kinds import slipping_clutch as slipping_clutch
 from holdfast.faults.kinds import weak as weak
 from holdfast.faults.learning.recording import Episode as Episode
 from holdfast.faults.learning.recording import recorded as recorded
+from holdfast.faults.learning.success_rate import Success as Success
+from holdfast.faults.learning.success_rate import success as success
 from holdfast.faults.learning.vector import FaultVectorEnv as FaultVectorEnv
 from holdfast.faults.learning.wrapper import FaultWrapper as FaultWrapper
 from holdfast.faults.log import Log as Log

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -25,6 +25,7 @@ Answer = Literal["yes", "no", "not found", "unknown"]
 _LOCKS = frozenset({"locked", "slipping_clutch"})
 _BRAKED = frozenset({"limp", *SENSOR})
 _YIELD = 0.02  # rad or m, of a stop
+_EXACT = 1e-6  # m and rad: what a motion to the goal itself may be off
 _CONFIGURATIONS = 64  # of a goal at which a weak motor is asked to carry the arm
 
 
@@ -52,6 +53,7 @@ def feasible(
     at: ArrayLike | None = None,
     brakes: bool = True,
     restarts: int = 100,
+    tolerance: float = 1e-6,
 ) -> Feasibility:
     """Whether the tool of an arm with faults can be at a goal, within the joints' limits. No obstacles are looked at.
 
@@ -68,6 +70,8 @@ def feasible(
         at: (n,) where the arm is, rad and m; None: a configuration at the goal is enough.
         brakes: Whether the joints have brakes.
         restarts: Random starts of the search.
+        tolerance: Largest distance from the goal that counts as success, m, and rad for a pose; at most 1. A motion from ``at``
+            is searched for to the goal itself, so what is then proved impossible within a larger tolerance is ``not found``.
 
     Raises:
         InputError: A goal of another shape, or an unknown joint.
@@ -87,20 +91,24 @@ def feasible(
     if weak and held:
         return Feasibility("unknown", "locks and weak motors together are not looked at")
     if weak:
-        return _carried(arm, pose, rows, weak)
+        return _carried(arm, pose, rows, weak, tolerance)
     ranges = {e.joint: _range(arm, e, places[e]) for e in left if e.kind == "reduced_range"}
     parts = [f"{joint} locked" for joint in held] + [f"{joint} within its reduced range" for joint in ranges]
     what = f"with {' and '.join(parts)}" if parts else "by the healthy arm"
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if at is not None and parts:
-        return _recovered(arm, Degraded(arm, locked=held, ranges=ranges), at, goal=pose, rows=rows, what=what)
+        recovered = _recovered(arm, Degraded(arm, locked=held, ranges=ranges), at, goal=pose, rows=rows, what=what)
+        unproved = recovered.answer == "no" and tolerance > _EXACT
+        return replace(recovered, answer="not found") if unproved else recovered
     if held and ranges:
         return Feasibility("unknown", "locks and reduced ranges together need where the arm is: give at")
     if held:
         locked = held if len(held) == 1 else Degraded(arm, locked=held)
-        found = reachable_when_locked(arm, where, locked, task=rows, restarts=restarts)
+        found = reachable_when_locked(arm, pose, locked, task=rows, restarts=restarts, tolerance=tolerance)
     else:
         whole = Degraded(arm, ranges=ranges).limited if ranges else arm
-        found = solve_ik(whole, pose, task=rows, restarts=restarts)
+        found = solve_ik(whole, pose, task=rows, restarts=restarts, tolerance=tolerance)
     if not found.success:
         return Feasibility("not found", f"no configuration of the goal was found {what}")
     return Feasibility("yes", f"the goal is reached {what}", np.asarray(found.q))
@@ -134,9 +142,9 @@ def _recovered(arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, rows: st
     return Feasibility("not found", f"no motion to the goal was found {what}: {found.verdict.why}")
 
 
-def _carried(arm: Arm, goal: Array, task: str | Task, gains: Mapping[str, float]) -> Feasibility:
+def _carried(arm: Arm, goal: Array, task: str | Task, gains: Mapping[str, float], tolerance: float) -> Feasibility:
     """Whether weak motors hold the arm against gravity in some configuration of the goal."""
-    found = solve_ik(arm, np.repeat(goal[None], _CONFIGURATIONS, axis=0), task=task, restarts=4)
+    found = solve_ik(arm, np.repeat(goal[None], _CONFIGURATIONS, axis=0), task=task, restarts=4, tolerance=tolerance)
     q = found.q[found.success]
     if not len(q):
         return Feasibility("not found", "no configuration of the goal was found by the healthy arm")

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.errors import InputError
 from holdfast.faults.actuators import Actuators
-from holdfast.faults.entry import TORQUE
+from holdfast.faults.entry import SENSOR, TORQUE
 from holdfast.faults.events import FaultEvent, FaultEvents
 from holdfast.faults.scheme import Faults, Jointed, names_of
 
@@ -29,9 +29,6 @@ _HEAVY = 1e6  # of a locked joint's inertia a time step: its damping where MuJoC
 _FAR = 1e9  # rad or m: a stop where there is none
 _STIFF = 2.0  # time steps: the shortest time constant that MuJoCo's contacts keep stable
 _IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-_JOINT_FIELDS = ("jnt_limited", "jnt_range", "jnt_solref", "jnt_solimp", "jnt_actfrclimited", "jnt_actfrcrange")
-_DOF_FIELDS = ("dof_frictionloss", "dof_damping")
-_ACTUATOR_FIELDS = ("actuator_gainprm", "actuator_biasprm")
 _HOLDS = ("locked", "slipping_clutch")
 
 
@@ -46,13 +43,16 @@ class _Active:
     pending: bool = False  # a lock that waits for its angle
     still: bool = False  # a joint that was stopped where it is held
     command: Array | None = None
+    force_range: tuple[float, float] | None = None  # N m or N, of a motor whose speed is reduced
 
 
 class FaultInjector:
     """Puts faults into a MuJoCo model and takes them out again.
 
-    The caller's loop is ``reset(episode)``, then before each step ``before_step(time)``, after the controller has written
-    ``data.ctrl``; a controller that should see sensor faults takes its joint values from ``read``. A locked joint is held by
+    The caller's loop is ``reset(episode)``, then for each step ``before_step(time)``, after the controller has written
+    ``data.ctrl``, ``mujoco.mj_step``, and ``restore()``. Between ``restore`` and the next ``before_step`` no field of the model
+    shows the fault, so a controller that reads limits, gains or damping from the model reads those of the healthy robot. A
+    controller that should see sensor faults takes its joint values from ``read``. A locked joint is held by
     a pair of limits that overlap there, and its momentum goes into the others as in an impact without rebound, unless the
     model has active equality constraints. MuJoCo's implicit damping comes after its constraints and would move the joint by
     what the others' damping gives: the joint gets so much of its own that it does not.
@@ -69,6 +69,7 @@ class FaultInjector:
         joints: Names of the n joints.
         events: Of this episode.
         applied: Of the events that have begun the time of the step at which they took effect, s.
+        is_inserted: Whether the model has the active faults now.
 
     Raises:
         InputError: A joint that the model does not have; a fault that it cannot have, as a weak motor without a motor.
@@ -101,10 +102,12 @@ class FaultInjector:
         implicit = [int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")]
         off = sum(int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0)) for name in ("EULERDAMP", "DAMPER", "PASSIVE"))
         self._damped = model.opt.integrator in implicit and not model.opt.disableflags & off
-        self._saved: list[tuple[str, Any, Any]] = []
+        self._changes: list[tuple[Array, Any, Any]] = []  # array, row and value before the faults were inserted
+        self.is_inserted = False
         self.events = FaultEvents()
         self.applied: dict[FaultEvent, float] = {}
         self.reset(0)
+        self._check_entries()
 
     def reset(self, episode: int = 0) -> FaultEvents:
         """Undo everything, and draw what happens in an episode; events that were given happen in each.
@@ -113,7 +116,7 @@ class FaultInjector:
             InputError: A fault that the model cannot have.
         """
         self.restore()
-        self._save()
+        self._motors.note()
         given = self.faults
         if isinstance(given, (str, Path)):
             raise InputError(f"the faults are '{given}'; read a file of them by holdfast.faults.load")
@@ -133,10 +136,19 @@ class FaultInjector:
         self._look()
         return self.events
 
+    def insert(self) -> None:
+        """Put the active faults into the model, on top of the values that it has now."""
+        self.restore()
+        for one in (*self._active, *self._brakes):
+            self._put(one)
+        self.is_inserted = True
+
     def restore(self) -> None:
-        """Give the model back every number that it had, bit for bit."""
-        for name, rows, values in self._saved:
-            getattr(self.model, name)[rows] = values
+        """Give the model back every number that it had, bit for bit, until the next ``before_step``."""
+        for array, row, value in reversed(self._changes):
+            array[row] = value
+        self._changes.clear()
+        self.is_inserted = False
 
     def actuators_of(self, joint: str) -> NDArray[np.int64]:
         """Numbers of the actuators of a joint, given by name."""
@@ -153,6 +165,11 @@ class FaultInjector:
         return {one.event: one.place for one in self._active}
 
     @property
+    def changes_model(self) -> bool:
+        """Whether a fault of this episode changes the model; faults of sensors and of commands do not."""
+        return any(event.kind not in SENSOR | {"command_dropout"} for event in self.events)
+
+    @property
     def active(self) -> FaultEvents:
         """The events that are there now."""
         return FaultEvents(one.event for one in self._active)
@@ -164,21 +181,30 @@ class FaultInjector:
         one = _Active(event, j, float(self.data.qpos[self._qpos[j]]), self.time)
         self._stop(one)
         self._brakes.append(one)
-        self._apply()
+        self._update()
 
     def release(self, joint: str) -> None:
         """Release a joint that was braked."""
         j = self.joints.index(joint)
         self._brakes = [one for one in self._brakes if one.joint != j]
-        self._apply()
+        self._update()
 
     def before_step(self, time: float) -> None:
-        """Let begin and end what does so by a time, s, and do what a fault does at every step."""
-        self.time = time
+        """Begin and end the faults that are due at a time, s, and insert the active ones into the model."""
+        self.advance(time)
+        if not self.is_inserted:
+            self.insert()
+
+    def advance(self, time: float) -> None:
+        """Begin and end the faults that are due at a time, s, without inserting them into a model that has none."""
+        self.time, inserted = time, self.is_inserted
         if time >= self._next:
+            self.insert()
             self._change(time)
         for one in self._every:
             self._work(one)
+        if not inserted and self.is_inserted:
+            self.restore()
 
     def read(self, q: ArrayLike, *, reference: ArrayLike | None = None) -> Array:
         """What the sensors tell of the joints.
@@ -208,12 +234,6 @@ class FaultInjector:
 
     # ---- inside ------------------------------------------------------------------------------------------------------
 
-    def _save(self) -> None:
-        kinds = ((_JOINT_FIELDS, np.array(self._ids)), (_DOF_FIELDS, self._dofs), (_ACTUATOR_FIELDS, self._motors.all))
-        fields = [(name, rows) for names, rows in kinds for name in names]
-        self._saved = [(name, rows, getattr(self.model, name)[rows].copy()) for name, rows in fields]
-        self._motors.note()
-
     def _check(self, event: FaultEvent) -> None:
         if event.joint not in self.joints:
             raise InputError(f"a fault names joint '{event.joint}'; the joints are {', '.join(self.joints)}")
@@ -235,6 +255,16 @@ class FaultInjector:
                 low, high = self._arm[event.joint].lower, self._arm[event.joint].upper
             if not low <= at <= high:
                 raise InputError(f"'{event.joint}' locks at {at:g}, beyond its limits {low:g} and {high:g}")
+
+    def _check_entries(self) -> None:
+        """Refuse a fault model with a fault that some later episode could draw and the model cannot have."""
+        for entry in self.faults.entries if isinstance(self.faults, Faults) else ():
+            names = entry.joints or self.joints
+            weights = entry.weights or (1.0,) * len(names)
+            for name in (name for name, weight in zip(names, weights, strict=True) if weight > 0 and entry.probability > 0):
+                for end in (0, 1):
+                    numbers = {key: law if isinstance(law, str) else law.ends[end] for key, law in entry.parameters.items()}
+                    self._check(FaultEvent(entry.kind, name, 0.0, parameters=numbers))
 
     def _look(self) -> None:
         """When something begins or ends next, and what has work at every step."""
@@ -267,33 +297,45 @@ class FaultInjector:
         self._apply()
 
     def _apply(self) -> None:
-        """The model as it was, with all that is there now."""
-        self.restore()
-        for one in (*self._active, *self._brakes):
-            self._put(one)
+        """Put what is there now into the model, and nothing else."""
+        self.insert()
         self._look()
+
+    def _update(self) -> None:
+        """Follow a change of the brakes where the model has the faults now."""
+        if self.is_inserted:
+            self.insert()
+
+    def _write(self, field: str, row: Any, value: Any) -> None:
+        """Write rows of a field of the model, and keep their value for ``restore``."""
+        array = getattr(self.model, field)
+        self._changes.append((array, row, np.copy(array[row])))
+        array[row] = value
 
     def _put(self, one: _Active) -> None:
         k, dof, m, numbers = self._ids[one.joint], self._dofs[one.joint], self.model, one.event.parameters
         match one.event.kind:
             case "locked" | "slipping_clutch" if not one.pending:
-                m.jnt_limited[k] = 1
-                m.jnt_range[k] = one.place + OVERLAP, one.place - OVERLAP
-                m.jnt_solref[k] = _STIFF * m.opt.timestep, 1.0
-                m.jnt_solimp[k] = _IMPEDANCE
+                self._write("jnt_limited", k, 1)
+                self._write("jnt_range", k, (one.place + OVERLAP, one.place - OVERLAP))
+                self._write("jnt_solref", k, (_STIFF * m.opt.timestep, 1.0))
+                self._write("jnt_solimp", k, _IMPEDANCE)
                 if one.still and self._damped:
-                    m.dof_damping[dof] = _HEAVY * m.dof_M0[dof] / m.opt.timestep
+                    self._write("dof_damping", dof, _HEAVY * m.dof_M0[dof] / m.opt.timestep)
             case "limp":
-                m.jnt_actfrclimited[k], m.jnt_actfrcrange[k] = 1, (0.0, 0.0)
+                self._limit_force(k, 0.0, 0.0)
             case "weak" if "gain" in numbers:
-                for name in _ACTUATOR_FIELDS:
-                    getattr(m, name)[self._motors.of(one.joint)] *= numbers["gain"]
+                rows = self._motors.of(one.joint)
+                for name in ("actuator_gainprm", "actuator_biasprm"):
+                    self._write(name, rows, getattr(m, name)[rows] * numbers["gain"])
             case "weak":
                 most = float(numbers["ceiling"]) * self._motors.effort(one.joint, one.event)
-                m.jnt_actfrclimited[k], m.jnt_actfrcrange[k] = 1, (-most, most)
+                self._limit_force(k, -most, most)
+            case "reduced_speed" if one.force_range is not None:
+                self._limit_force(k, *one.force_range)
             case "friction":
-                m.dof_frictionloss[dof] += float(numbers.get("coulomb", 0.0))
-                m.dof_damping[dof] += float(numbers.get("viscous", 0.0))
+                self._write("dof_frictionloss", dof, m.dof_frictionloss[dof] + float(numbers.get("coulomb", 0.0)))
+                self._write("dof_damping", dof, m.dof_damping[dof] + float(numbers.get("viscous", 0.0)))
             case "reduced_range":
                 low, high = m.jnt_range[k] if m.jnt_limited[k] else (-_FAR, _FAR)
                 travel = float(numbers.get("travel", 0.0))
@@ -302,7 +344,13 @@ class FaultInjector:
                 # A stop behind the joint would throw it: it begins where the joint is.
                 low = max(low, min(float(numbers.get("lower", low)), one.place))
                 high = min(high, max(float(numbers.get("upper", high)), one.place))
-                m.jnt_limited[k], m.jnt_range[k] = 1, (low, high)
+                self._write("jnt_limited", k, 1)
+                self._write("jnt_range", k, (low, high))
+
+    def _limit_force(self, k: int, least: float, most: float) -> None:
+        """Limit the force of all actuators on a joint, N m or N."""
+        self._write("jnt_actfrclimited", k, 1)
+        self._write("jnt_actfrcrange", k, (least, most))
 
     def _work(self, one: _Active) -> None:
         j = one.joint
@@ -311,15 +359,15 @@ class FaultInjector:
         elif one.pending:
             at, q = float(one.event.parameters["at"]), float(self.data.qpos[self._qpos[j]])
             if (q - at) * one.since <= 0:
+                self.insert()
                 one.pending, one.place = False, at
                 self._stop(one)
                 self._apply()
         else:
             speed, effort = float(self.data.qvel[self._dofs[j]]), self._motors.effort(j, one.event)
             most = effort * max(0.0, 1.0 - abs(speed) / float(one.event.parameters["velocity"]))
-            k = self._ids[j]
-            self.model.jnt_actfrclimited[k] = 1
-            self.model.jnt_actfrcrange[k] = (-effort, most) if speed > 0 else (-most, effort)
+            one.force_range = (-effort, most) if speed > 0 else (-most, effort)
+            self._update()
 
     def _stop(self, one: _Active) -> None:
         """Stop a joint and those that are held already as in an impact: the momenta of all others are kept."""

@@ -87,7 +87,9 @@ def read(path: Path) -> tuple[Triangles, bytes]:
     if kind == "stl":
         return triangles(*_stl(content, path.name), f"'{path.name}'"), content
     if kind == "dae" and find_spec("collada") is None:
-        raise HoldfastError(f"'{path.name}' is read by pycollada, which is not installed; pip install pycollada, or convert it")
+        raise HoldfastError(
+            f"'{path.name}' is read by pycollada, which is not installed; install holdfast[cell] (pip install 'holdfast[cell]')"
+        )
     trimesh = import_trimesh()
     try:
         # From memory: nothing that the file names, as a picture, is opened.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
+from inspect import signature
 from typing import Literal
 
 import casadi as ca
@@ -15,7 +16,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
-from holdfast.errors import TaskError
+from holdfast.errors import HoldfastError, TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
 from holdfast.kernels.kernel import Kernel
@@ -24,7 +25,7 @@ from holdfast.kernels.recall import recalled
 from holdfast.linalg import HouseholderQR, slopes_along
 
 Array = NDArray[np.float64]
-Formula = Callable[[SX], SX]
+Formula = Callable[..., SX]
 
 
 class FormulaIndex(Index):
@@ -38,12 +39,18 @@ class FormulaIndex(Index):
     def formula(self, j: SX) -> SX:
         """The value, a scalar, of the reduced task Jacobian (m, n - |S|), linear rows divided by the characteristic length."""
 
+    def _value(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
+        """Compute the formula for the joints that still work, whose columns the Jacobian has."""
+        del q, joints
+        return self.formula(j)
+
     def _symbols(self) -> tuple[SX, list[SX]]:
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)
         values = []
         for failed in self.failures:
-            value = self.formula(j[:, [k for k in range(self.arm.n) if k not in failed]])
+            joints = [k for k in range(self.arm.n) if k not in failed]
+            value = self._value(j[:, joints], q, joints)
             if value.shape != (1, 1):
                 raise TaskError(f"{self.name}: its formula returned shape {value.shape}; it must return one scalar")
             values.append(value)
@@ -94,7 +101,9 @@ class CustomIndex(FormulaIndex):
     """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
 
     Args:
-        formula: Takes the reduced task Jacobian, CasADi ``SX`` ``(m, n - |S|)``, returns a scalar ``SX``.
+        formula: ``formula(j)`` or ``formula(j, q, joints)``, which returns a scalar CasADi ``SX``: ``j`` is the reduced task
+            Jacobian ``(m, n - |S|)``, ``q`` the configuration ``(n,)``, and ``joints`` the indices from 0 of the joints that
+            still work, one for each column of ``j``. Its parameters decide which of the two it is.
         arm: The arm.
         task: As for every index.
         failures: As for every index.
@@ -105,7 +114,7 @@ class CustomIndex(FormulaIndex):
         bound: The best value possible, if known.
 
     Raises:
-        TaskError: The formula does not return one scalar.
+        TaskError: The formula raises an error, or does not return one scalar.
     """
 
     def __init__(
@@ -129,4 +138,24 @@ class CustomIndex(FormulaIndex):
 
     def formula(self, j: SX) -> SX:
         """See :meth:`FormulaIndex.formula`."""
-        return ca.SX(self._formula(j))
+        return self._value(j, ca.SX.zeros(0), ())
+
+    def _value(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
+        arguments = (j, q, list(joints)) if _takes_joints(self._formula) else (j,)
+        try:
+            return ca.SX(self._formula(*arguments))
+        except HoldfastError:
+            raise
+        except Exception as error:  # a formula may raise anything, CasADi among it
+            reason = str(error).strip().splitlines()[-1] if str(error).strip() else type(error).__name__
+            raise TaskError(f"{self.name}: its formula failed for a Jacobian of shape {j.shape}: {reason}") from error
+
+
+def _takes_joints(formula: Formula) -> bool:
+    """Return True for a formula with the required parameters j, q and joints."""
+    try:
+        parameters = signature(formula).parameters.values()
+    except (TypeError, ValueError):  # functions of C have no signature
+        return False
+    required = [p for p in parameters if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    return len(required) == 3

@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 
 _HALF = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
 _WIDE, _TALL = 560, 400  # pixels of the drawing
+_NOTE = '<p class="view3d-note view3d-once">{}</p>'
 _BODY = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
 
@@ -60,7 +61,7 @@ class Scene:
         legend = [swatch.format(colors[k % 5], escape(x)) for k, x in enumerate(labels)] if len(labels) > 1 else []
         marked = [j["name"] for j, t in zip(self.data["joints"], self.data["locked"], strict=True) if t is not None]
         free = [self.data["joints"][k]["name"] for k in self.data["free"]]
-        lines = [*self.notes, *(f"{w}: {', '.join(x)}." for w, x in (("Locked", marked), ("Swinging freely", free)) if x)]
+        lines = [f"{w}: {', '.join(x)}." for w, x in (("Locked", marked), ("Swinging freely", free)) if x]
         parts = scripted(self.data["parts"])
         key = sha256(parts.encode()).hexdigest()[:12]
         text = scripted({**self.data, "parts": key})
@@ -69,6 +70,7 @@ class Scene:
             f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas>'
             '</div>\n<div class="view3d-controls"></div>\n'
             + (f'<p class="view3d-legend">{" ".join(f"<span>{x}</span>" for x in legend)}</p>\n' if legend else "")
+            + "".join(_NOTE.format(escape(line)) + "\n" for line in self.notes)
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in lines)
             + '<p class="view3d-hint">Where JavaScript is on, this picture can be turned.</p>\n'
             f'<script type="application/json">{text}</script>\n{_BODY.format(key, parts)}\n</div>'
@@ -87,7 +89,7 @@ def template(name: str) -> str:
 
 
 def with_library(html: str) -> str:
-    """A page with the style and the script of the views in it, and each body that they show, once; without views as it is."""
+    """A page with the style and the script of the views in it, and each body and note once; without views as it is."""
     if '<div class="view3d"' not in html:
         return html
     seen: set[str] = set()
@@ -98,8 +100,9 @@ def with_library(html: str) -> str:
         seen.add(found[1])
         return found[0]
 
-    bodies = re.sub(re.escape(_BODY).replace(r"\{\}", "(.*?)"), once, html)
-    styled = bodies.replace("</head>", f"<style>\n{template('viewer.css')}</style>\n</head>", 1)
+    for part in (_BODY, _NOTE):
+        html = re.sub(re.escape(part).replace(r"\{\}", "(.*?)"), once, html)
+    styled = html.replace("</head>", f"<style>\n{template('viewer.css')}</style>\n</head>", 1)
     before, _, after = styled.rpartition("</body>")
     return f"{before}<script>{template('viewer.js').strip()}</script>\n</body>{after}"
 

@@ -58,10 +58,12 @@ class Missing(NamedTuple):
     Attributes:
         link: As in :class:`Piece`.
         what: Its name, and why.
+        is_present: Whether its file was found, so that its content is the reason.
     """
 
     link: int
     what: str
+    is_present: bool = False
 
 
 class Carriers:

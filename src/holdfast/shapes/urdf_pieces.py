@@ -51,8 +51,12 @@ def collected(
                 form = _form(shape[0], file, folder, open_files)
                 pieces.append(Piece(link=place[0], owner=owner, pose=pose, rgba=_color(shown, materials), **form))
             except (ArmError, ValueError) as error:
-                missing.append(Missing(place[0], str(error)))
+                missing.append(Missing(place[0], str(error), isinstance(error, _UnreadableError)))
     return pieces, missing
+
+
+class _UnreadableError(ArmError):
+    """A mesh whose file was found and could not be read."""
 
 
 def _form(element: ElementTree.Element, file: Path, folder: Path | None, open_files: bool) -> dict[str, Any]:
@@ -73,7 +77,7 @@ def _form(element: ElementTree.Element, file: Path, folder: Path | None, open_fi
     try:
         surface, _ = mesh.read(found)
     except HoldfastError as error:
-        raise ArmError(f"{name} ({error})") from error
+        raise _UnreadableError(f"{name} ({error})") from error
     scale = np.array(_floats(element, "scale")) if element.get("scale") else np.ones(3)
     if scale.shape != (3,):
         raise ArmError(f"{name} (its scale must be 3 numbers)")

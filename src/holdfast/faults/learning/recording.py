@@ -36,6 +36,7 @@ class Episode:
         feasible: Whether the goal was within reach, as :class:`holdfast.faults.Feasibility` has it.
         outcome: ``terminated``, ``truncated`` or ``left``: reset or closed before its end.
         versions: Of packages.
+        success: Success at the end, by ``is_success`` or ``success`` in the last ``info``; None if the environment has neither.
     """
 
     file: Path
@@ -47,6 +48,7 @@ class Episode:
     feasible: str
     outcome: str
     versions: Mapping[str, str]
+    success: bool | None = None
 
     def log(self) -> Log:
         """Its record.
@@ -101,7 +103,9 @@ class Recorder:
         """A step."""
         self._rows.append((time, reference, q, torque, np.array(action, dtype=np.float64), float(reward)))
 
-    def finish(self, *, seed: int | None, episode: int, events: FaultEvents, feasible: str, outcome: str) -> None:
+    def finish(
+        self, *, seed: int | None, episode: int, events: FaultEvents, feasible: str, outcome: str, success: bool | None = None
+    ) -> None:
         """Write the episode, if it had two steps or more.
 
         Raises:
@@ -121,6 +125,7 @@ class Recorder:
             "id": events.id,
             "feasible": feasible,
             "outcome": outcome,
+            "success": success,
             "versions": versions("holdfast", "numpy", "mujoco", "gymnasium"),
         }
         index = self._folder / INDEX

@@ -17,6 +17,7 @@ from holdfast.faults.entry import SENSOR
 from holdfast.faults.events import FaultEvent
 from holdfast.faults.feasibility import Feasibility, feasible
 from holdfast.faults.injector import FaultInjector
+from holdfast.faults.learning.physics_calls import PhysicsCalls
 from holdfast.faults.learning.recording import Recorder
 from holdfast.faults.scheme import Faults, Jointed
 
@@ -59,6 +60,11 @@ class FaultInfo(Mapping[str, Any]):
     def __len__(self) -> int:
         return 5
 
+    def __repr__(self) -> str:
+        active = self["active"]
+        parts = [f"  {e.sentence()}{', active' if f'{e.joint}: {e.kind}' in active else ''}" for e in self._injector.events]
+        return "\n".join([f"FaultInfo: {len(parts)} {'fault' if len(parts) == 1 else 'faults'} in this episode", *parts])
+
 
 class FaultWrapper(Wrapper):  # type: ignore[misc]
     """An environment whose joints fail, by its own clock (needs ``holdfast[learn]`` and ``holdfast[physics]``).
@@ -71,9 +77,11 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
     Args:
         env: An environment with a MuJoCo model: of Gymnasium, Gymnasium-Robotics or robosuite.
         faults: A fault model, or the events of every episode.
-        joints: Names of joints in the model, or an arm; if not given those that :class:`FaultInjector` takes.
+        joints: Names of joints in the model, or an arm; by default the joints of ``arm``, or else those that
+            :class:`FaultInjector` takes.
         arm: The arm, and ``goal(env)``, where its tool should be, (3,) or (4, 4), m: to tell whether that is feasible.
         goal: See ``arm``.
+        tolerance: Largest distance from the goal that counts as success, m, and rad for a pose.
         observes: Entries of the observation (a vector, or its part ``observation``) that hold a joint's value, by joint. If
             not given they are found by moving each joint.
         reveal: False: ``info`` says nothing, and only ``env.fault`` does, which no policy sees.
@@ -99,6 +107,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         goal: Callable[[Any], Any] | None = None,
         observes: Mapping[str, Sequence[int]] | None = None,
         reveal: bool = True,
+        tolerance: float = 1e-6,
         horizon: float = math.inf,
         record: str | Path | None = None,
     ) -> None:
@@ -107,8 +116,10 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         super().__init__(env)
         self._mujoco = import_mujoco()
         model, data = _found(env.unwrapped)
-        self.injector = FaultInjector(model, data, joints, faults=faults, horizon=horizon)
+        self.injector = FaultInjector(model, data, arm if joints is None else joints, faults=faults, horizon=horizon)
+        self._physics = PhysicsCalls(self.injector)
         self._arm, self._goal, self._reveal = arm, goal, reveal
+        self._tolerance = tolerance
         self._observes, self._given, self._episode = dict(observes or {}), observes is not None, -1
         self._rows = model.jnt_qposadr[[model.joint(name).id for name in self.injector.joints]]
         self._recorder = None if record is None else Recorder(record)
@@ -128,6 +139,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             self.injector = FaultInjector(
                 model, data, self.injector.joints, faults=self.injector.faults, horizon=self.injector.horizon
             )
+            self._physics = PhysicsCalls(self.injector)
         self.injector.reset(self._episode)
         self._fresh()
         if self._sensors:
@@ -137,10 +149,17 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """The environment's step with the faults that have begun."""
         injector = self.injector
-        injector.before_step(injector.data.time)
+        injector.advance(injector.data.time)
         if self._dropouts:
             action = self._held(action)
-        observation, reward, terminated, truncated, info = self.env.step(action)
+        time, count = injector.data.time, self._physics.count
+        with self._physics.watch():
+            observation, reward, terminated, truncated, info = self.env.step(action)
+        if self._physics.count == count and injector.data.time != time and injector.changes_model:
+            raise InputError(
+                f"{type(self.env.unwrapped).__name__} moves its model by other means than mujoco.mj_step, so its faults do not "
+                "act; write the loop with holdfast.faults.FaultInjector"
+            )
         if self._sensors:
             injector.time = injector.data.time
             observation = self._seen(observation)
@@ -148,6 +167,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             info["fault"] = self.fault
         if self._recorder is not None:
             self._note(action, reward)
+            self._success: bool | None = next((bool(info[key]) for key in ("is_success", "success") if key in info), None)
             if terminated or truncated:
                 self._finish("terminated" if terminated else "truncated")
         return observation, reward, terminated, truncated, info
@@ -176,7 +196,14 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         if self._recorder is None:
             return
         events, known = self.injector.events, self._judged().answer
-        self._recorder.finish(seed=self._seed, episode=self._episode, events=events, feasible=known, outcome=outcome)
+        self._recorder.finish(
+            seed=self._seed,
+            episode=self._episode,
+            events=events,
+            feasible=known,
+            outcome=outcome,
+            success=self._success,
+        )
 
     def _has_model(self) -> bool:
         return _found(self.env.unwrapped)[0] is self.injector.model
@@ -186,8 +213,9 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         kinds = {event.kind for event in self.injector.events}
         self._sensors, self._dropouts = bool(kinds & SENSOR), "command_dropout" in kinds
         self._last: Array | None = None
+        self._success = None
         self._verdict: Feasibility | None = None
-        self.fault = FaultInfo(self.injector, self._judged)
+        self.fault: FaultInfo = FaultInfo(self.injector, self._judged)
         if self._dropouts and self.env.action_space.shape != (self.injector.model.nu,):
             raise InputError("a dropout needs actions that are the actuators' controls; this environment has others")
 
@@ -201,7 +229,10 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             return Feasibility("unknown", "no arm or no goal is given")
         if not self.injector.applied:
             return Feasibility("unknown", "no fault has begun")
-        self._verdict = feasible(self._arm, self._goal(self.env), self.injector.places)
+        other = next((e.joint for e in self.injector.places if e.joint not in self._arm.joint_names), None)
+        if other is not None:
+            return Feasibility("unknown", f"'{other}' is not a joint of the arm")
+        self._verdict = feasible(self._arm, self._goal(self.env), self.injector.places, tolerance=self._tolerance)
         return self._verdict
 
     def _held(self, action: Any) -> Any:

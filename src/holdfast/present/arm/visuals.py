@@ -26,13 +26,15 @@ def body_of(arm: Arm, size: float, meshes: bool = True) -> tuple[list[Part], str
     """
     sticks = stick_parts(arm, size)
     shapes, lacking = visual_parts(arm, meshes)
-    missing = [item.what for item in lacking]
     if not shapes:
-        return sticks, f"no mesh was found or read ({missing[0]}), so the arm is drawn as sticks" if missing else ""
-    if missing:
+        return sticks, f"no mesh was found or read ({lacking[0].what}), so the arm is drawn as sticks" if lacking else ""
+    if lacking:
         clad = {p.frame for p in shapes}
         shapes += [p for p in sticks if p.frame not in clad]
-        return shapes, f"{len(missing)} of the file's meshes not found, such as {missing[0]}; such links are drawn as sticks"
+        groups = (("not found", False), ("found but not readable", True))
+        sorted_out = [(words, [item.what for item in lacking if item.is_present is present]) for words, present in groups]
+        counts = [f"{len(which)} {words}, such as {which[0]}" for words, which in sorted_out if which]
+        return shapes, f"of the file's meshes {' and '.join(counts)}; such links are drawn as sticks"
     return shapes, ""
 
 

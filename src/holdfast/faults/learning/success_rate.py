@@ -1,0 +1,67 @@
+"""The rate of success among recorded episodes, apart for those in which the goal was within reach."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import KW_ONLY, dataclass
+
+from holdfast.errors import InputError
+from holdfast.faults.learning.recording import Episode
+from holdfast.probability import Interval
+
+
+@dataclass(frozen=True)
+class Success:
+    """Success by the feasibility of the goal.
+
+    Attributes:
+        counts: Successes and episodes by ``yes``, ``no``, ``not found`` and ``unknown``.
+        confidence: Of the intervals.
+    """
+
+    counts: dict[str, tuple[int, int]]
+    _: KW_ONLY
+    confidence: float = 0.95
+
+    def rate(self, feasible: str = "yes") -> Interval | None:
+        """Compute the rate among the episodes of one feasibility, with its Clopper-Pearson interval; None without episodes."""
+        hits, size = self.counts[feasible]
+        return Interval.of(hits, size, self.confidence) if size else None
+
+    def __str__(self) -> str:
+        lines = []
+        for feasible, (hits, size) in self.counts.items():
+            rate = self.rate(feasible)
+            if rate is not None:
+                interval = f"{self.confidence:.0%} interval {rate.low:.1%} to {rate.high:.1%}"
+                lines.append(f"goal feasible: {feasible}: {hits} of {size} episodes succeeded, {rate.value:.1%} ({interval})")
+        return "\n".join(lines)
+
+
+def success(
+    episodes: Sequence[Episode], reached: Callable[[Episode], bool] | None = None, *, confidence: float = 0.95
+) -> Success:
+    """Count the successes of recorded episodes, apart for each feasibility of the goal.
+
+    Report the rate of the feasible episodes: in the others no policy, or none that was found, could have reached the goal.
+
+    Args:
+        episodes: Episodes from :func:`holdfast.faults.recorded`.
+        reached: ``reached(episode)``, True for a success; by default the success that the environment reported.
+        confidence: Of the intervals, between 0 and 1.
+
+    Raises:
+        InputError: No episodes, an environment that reports no success, or a confidence out of bounds.
+    """
+    if not episodes or not 0 < confidence < 1:
+        raise InputError(
+            f"there are {len(episodes)} episodes and the confidence is {confidence:g}; give one or more, and 0 to 1"
+        )
+    counts = dict.fromkeys(("yes", "no", "not found", "unknown"), (0, 0))
+    for episode in episodes:
+        result = episode.success if reached is None else bool(reached(episode))
+        if result is None:
+            raise InputError(f"'{episode.file.name}' has no success, as its environment reports none; give reached(episode)")
+        hits, size = counts[episode.feasible]
+        counts[episode.feasible] = hits + result, size + 1
+    return Success(counts, confidence=confidence)

@@ -1,0 +1,54 @@
+"""Matrices and numbers of matrices that a formula of one's own may use, as functions of CasADi symbols."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+from holdfast.arm.dynamics import inertial_torques
+from holdfast.arm.machine import Machine
+from holdfast.errors import InputError
+from holdfast.kernels.program import SX
+from holdfast.linalg import dot, jacobi_sweep
+
+_SWEEPS = 6
+_MAX_ROWS = 6
+
+
+def compute_inertia_matrix(arm: Machine, q: SX) -> SX:
+    """Compute the joint-space inertia matrix, payload and armature included.
+
+    Args:
+        arm: The arm, with inertial data.
+        q: (n,) symbols, rad and m.
+
+    Returns:
+        (n, n) kg m^2 for revolute joints and kg for prismatic joints.
+
+    Raises:
+        ArmError: Inertial data are missing or impossible.
+    """
+    acceleration = ca.SX.sym("qdd", arm.n)
+    return ca.jacobian(inertial_torques(arm, q, ca.SX.zeros(arm.n), acceleration), acceleration)
+
+
+def compute_singular_values(matrix: SX) -> SX:
+    """Compute the singular values of a matrix by Jacobi rotations of its rows; the result can be differentiated.
+
+    The eigenvalues of ``matrix @ matrix.T`` are the squares.
+
+    Args:
+        matrix: (m, c) with at most six rows and at least as many columns.
+
+    Returns:
+        (m,) in no particular order.
+
+    Raises:
+        InputError: More than six rows, or fewer columns than rows.
+    """
+    m, c = matrix.shape
+    if not 1 <= m <= min(c, _MAX_ROWS):
+        raise InputError(f"the matrix has shape {m}x{c}; it must have 1 to {_MAX_ROWS} rows and at least as many columns")
+    rows = [ca.horzsplit(row) for row in ca.vertsplit(ca.densify(matrix))]
+    for _ in range(_SWEEPS):
+        rows, _change = jacobi_sweep(rows)
+    return ca.vertcat(*[ca.sqrt(dot(row, row)) for row in rows])
