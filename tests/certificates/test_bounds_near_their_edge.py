@@ -47,6 +47,7 @@ def at(*middles, half=0.0):
 STILL, ORIGIN = np.eye(3), [0.0, 0.0, 0.0]
 ELBOW = make_chain((STILL, ORIGIN), (STILL, [1.0, 0, 0]), (STILL, [0.8, 0, 0]))
 TELESCOPE = make_chain((STILL, ORIGIN), (Z_ALONG_X, ORIGIN), (STILL, [0, 0, 0.3]), slides=[False, True])
+POLE = make_chain((STILL, ORIGIN), (Z_ALONG_X, ORIGIN), (STILL, ORIGIN), slides=[False, True])
 MAST = make_chain((STILL, ORIGIN), (Z_ALONG_X, ORIGIN), (STILL, [0, 0, 1.0]))  # the tool lies on the second axis
 LEVER = make_chain((STILL, ORIGIN), (STILL, [1.0, 0, 0]))
 
@@ -139,6 +140,7 @@ def derivative(chain, q, way, order):
         (TELESCOPE, (0.0, 0.0), (0.3, 0.4)),
         (TELESCOPE, (0.0, -0.3), (0.05, 1.0)),
         (TELESCOPE, (0.0, 0.4), (0.0, 0.5)),
+        (POLE, (0.0, 0.0), (1.0, 0.5)),
         (MAST, (0.3, 0.0), (0.2, 0.1)),
     ],
 )
@@ -205,9 +207,7 @@ def test_distances_from_a_box_of_targets(axes, along, angle):
     task = {"xy": "planar", "xyz": "position"}[axes]
     target = {"axes": axes, "box": box, "orientation": None}
     limits = [joint["limits"] for joint in arm["joints"]]
-    leaves = distances.Apart(
-        {"task": task, "target": target, "locked": -1, "arm": arm, "limits": limits, "lemmas": [lemma]}
-    )
+    leaves = distances.Apart({"task": task, "target": target, "locked": -1, "arm": arm, "limits": limits, "lemmas": [lemma]})
     middles = leaves.middles([((0, 0),) * len(leaves.width)])
     joints, place = middles[:1], middles[leaves.n :]
     half = np.stack([x[:, 2] for x in (*joints, *(place[axis] for axis in leaves.variables))], 1)
@@ -223,7 +223,7 @@ def test_distances_from_a_box_of_targets(axes, along, angle):
 
 def random_frames(rng, n):
     """Frames of an arm that turns everywhere, and its tool."""
-    turns = [written.turn(0, rng.choice([0, np.pi / 2, 1.0])) @ written.turn(2, rng.uniform(-3, 3)) for _ in range(n + 1)]
+    turns = [written.turn(0, rng.choice([np.pi / 2, 1.0, -0.7])) @ written.turn(2, rng.uniform(-3, 3)) for _ in range(n + 1)]
     return [(turn, rng.uniform(-0.5, 0.5, 3)) for turn in turns]
 
 
@@ -245,7 +245,7 @@ def screws_from_the_middle(chain, q, first, point):
 @pytest.mark.parametrize("straight", [True, False])
 def test_screws_behind_the_first_and_second_order(rng, straight):
     """Of random arms, and of stretched planar ones, at the corners of boxes; derivatives by finite differences."""
-    for _ in range(6):
+    for _ in range(3):
         n = 5
         chain = make_chain(*([(STILL, [1.0, 0, 0])] * (n + 1) if straight else random_frames(rng, n)))
         q = np.zeros(n) if straight else rng.uniform(-2, 2, n)
@@ -281,7 +281,7 @@ def test_manipulability_at_the_edge_of_a_leaf(rng, kind, width, planar):
     """The sharpest threshold that a leaf proves, when one joint moves, lies on the right side of the sampled extreme."""
     n = 4 if planar else 7
     tight = []
-    for _ in range(25):
+    for _ in range(12):
         links = [(STILL, [length, 0, 0]) for length in rng.uniform(0.3, 1, n + 1)]
         chain = make_chain(*(links if planar else random_frames(rng, n)))
         q, moving = rng.uniform(-2, 2, n), int(rng.integers(1, n - 1))
@@ -297,7 +297,7 @@ def test_manipulability_at_the_edge_of_a_leaf(rng, kind, width, planar):
         leaves = (bounds.Wrenches if kind == "ceiling" else bounds.Motions)(given | {"threshold": (0.5).hex()})
         truth = [kept(chain, q + t * half, [lock])[0] for t in np.linspace(-1, 1, 41)]
         low, high = 1e-6, 1.0
-        for _ in range(40):
+        for _ in range(24):
             leaves.threshold = (low + high) / 2
             proved = bool(leaves.proves(lock if kind == "ceiling" else 0, [(((0, 0),) * n, 0)])[0])
             low, high = (low, leaves.threshold) if proved == (kind == "ceiling") else (leaves.threshold, high)

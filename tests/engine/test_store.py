@@ -18,6 +18,7 @@ import zarr
 
 from holdfast.engine import Column, Store, store
 from holdfast.errors import StoreError
+from holdfast.files.digest import seal_document
 
 COLUMNS = [
     Column("x", "float64", (("axis", 2),), units="m", about="where"),
@@ -47,6 +48,11 @@ def fill(folder, chunks=None) -> Store:
 
 def snapshot(folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def read_unsealed(file: Path):
+    """As tests/sealing.py, which the programs of this file cannot import."""
+    return {key: value for key, value in json.loads(file.read_text()).items() if key not in ("digest", "sealed")}
 
 
 def sentence(error) -> str:
@@ -98,7 +104,7 @@ def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
     """Its last digits differ: rows of both in one folder would be neither's."""
     fill(folder, [0, 1])
     file = folder / "run.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {"version": 1}))
+    file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
     before = snapshot(folder)
     with pytest.raises(StoreError) as error:
         make(folder)
@@ -110,7 +116,7 @@ def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
 def test_a_finished_run_of_the_earlier_backend_is_there(folder):
     fill(folder)
     file = folder / "run.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {"version": 1}))
+    file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
     assert make(folder).complete
 
 
@@ -267,7 +273,7 @@ DAMAGED = {
     "a list": lambda text: "[1, 2]",
     "a number": lambda text: "3",
     "other format": lambda text: text.replace("holdfast-run", "someone-else"),
-    "other version": lambda text: text.replace('"version": 3', '"version": 4'),
+    "other version": lambda text: seal_document({**{k: v for k, v in json.loads(text).items() if k != "digest"}, "version": 4}),
     "nested too deep": lambda text: "[" * 100_000,
 }
 
@@ -294,7 +300,7 @@ def test_a_damaged_run_file_is_a_sentence(how, folder):
 def test_a_run_file_without_a_key_is_damaged(key, folder):
     fill(folder, [0])
     file = folder / "run.json"
-    run = json.loads(file.read_text())
+    run = read_unsealed(file)
     del run[key]
     file.write_text(json.dumps(run))
     for ask in (lambda: Store.open(folder), lambda: make(folder)):
@@ -309,7 +315,7 @@ def test_a_run_file_without_a_key_is_damaged(key, folder):
 def test_a_run_file_with_nonsense_is_damaged(change, folder):
     fill(folder, [0])
     file = folder / "run.json"
-    file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+    file.write_text(json.dumps({**read_unsealed(file), **change}))
     with pytest.raises(StoreError, match="damaged"):
         Store.open(folder)
 

@@ -9,13 +9,13 @@ import urllib.request
 
 import numpy as np
 import pytest
-from conftest import PROGRAM
 from serve_program import KEY
 from station_client import Client, read_reply
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 import holdfast as hf
+from conftest import PROGRAM
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.verification import verify
 from holdfast.teleop.serve import messages

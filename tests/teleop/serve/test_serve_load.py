@@ -31,7 +31,7 @@ def test_silent_sockets_cost_the_stations_nothing():
 
 @contextmanager
 def served(protocols, files, body='b"here"'):
-    """Run a server with HTTP and WebSocket protocols on its own port, with a maximum number of files; it answers with a body."""
+    """Run a server with HTTP and WebSocket protocols and a maximum number of files; it answers with a body."""
     program = f"""
 import asyncio, resource, sys
 import uvicorn
@@ -73,12 +73,14 @@ def test_more_sockets_than_files_let_others_in():
 
 
 def test_a_request_that_does_not_end_is_ended():
-    with served("bounded.protocols(100, (0.2, 0.3))", 256) as server:
-        with socket.create_connection(("127.0.0.1", int(server.stdout.readline()))) as slow:
-            slow.sendall(b"GET / HTTP/1.1\r\nHost: x\r\nX: ")
-            slow.settimeout(30)
-            with suppress(ConnectionResetError):
-                assert slow.recv(1) == b""
+    with (
+        served("bounded.protocols(100, (0.2, 0.3))", 256) as server,
+        socket.create_connection(("127.0.0.1", int(server.stdout.readline()))) as slow,
+    ):
+        slow.sendall(b"GET / HTTP/1.1\r\nHost: x\r\nX: ")
+        slow.settimeout(30)
+        with suppress(ConnectionResetError):
+            assert slow.recv(1) == b""
 
 
 GET = b"GET / HTTP/1.1\r\nHost: x\r\n"
@@ -99,10 +101,12 @@ def is_closed(client):
 @pytest.mark.parametrize("request_text", [GET + b"\r\n", 200 * (GET + b"\r\n"), UPGRADE], ids=["one", "pipelined", "websocket"])
 def test_a_client_that_reads_no_answer_is_closed(request_text):
     """The answer is larger than the buffers of the system, and so it stays in the server's memory."""
-    with served("bounded.protocols(100, (0.2, 0.3))", 256, "bytes(2**23)") as server:
-        with socket.create_connection(("127.0.0.1", int(server.stdout.readline()))) as client:
-            client.sendall(request_text)
-            assert is_closed(client)
+    with (
+        served("bounded.protocols(100, (0.2, 0.3))", 256, "bytes(2**23)") as server,
+        socket.create_connection(("127.0.0.1", int(server.stdout.readline()))) as client,
+    ):
+        client.sendall(request_text)
+        assert is_closed(client)
 
 
 @pytest.mark.skipif(not hasattr(select, "POLLRDHUP"), reason="the end of an unread connection is seen on Linux only")
@@ -118,13 +122,15 @@ def test_unread_answers_take_a_bounded_amount_of_memory():
 
 def test_a_slow_reader_gets_the_whole_answer():
     """Several deadlines pass while it reads."""
-    with served("bounded.protocols(100, (0.2, 0.2))", 256, "bytes(2**23)") as server:
-        with socket.create_connection(("127.0.0.1", int(server.stdout.readline())), timeout=30) as client:
-            client.sendall(GET + b"Connection: close\r\n\r\n")
-            received = 0
-            while part := client.recv(2**18):
-                received += len(part)
-                time.sleep(0.03)
+    with (
+        served("bounded.protocols(100, (0.2, 0.2))", 256, "bytes(2**23)") as server,
+        socket.create_connection(("127.0.0.1", int(server.stdout.readline())), timeout=30) as client,
+    ):
+        client.sendall(GET + b"Connection: close\r\n\r\n")
+        received = 0
+        while part := client.recv(2**18):
+            received += len(part)
+            time.sleep(0.03)
     assert received > 2**23
 
 

@@ -12,7 +12,8 @@ from holdfast.files import reading
 
 _TLS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
   caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
-(start this command with --host 127.0.0.1, --behind-proxy, and a token then; the proxy must hand on the Host header, as Caddy does)"""
+(start this command with --host 127.0.0.1, --behind-proxy, and a token then; the proxy must hand on the Host
+header, as Caddy does)"""
 
 
 def serve(

@@ -55,7 +55,7 @@ class Options:
         tlx: Ask for the NASA task load index.
         static: Where the built page is.
         english: Which texts there are.
-        protocol: Name or file of the protocol of a new experiment; None for that of the experiment, or the paper's for a new one.
+        protocol: Name or file; None for the protocol of the experiment, or the paper's for a new one.
         behind_proxy: A proxy on this computer sets ``X-Forwarded-For`` and ``X-Forwarded-Proto``; otherwise both are ignored.
     """
 
