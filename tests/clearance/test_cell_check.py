@@ -66,3 +66,16 @@ def test_nothing_is_said_of_a_cell_whose_files_changed(tmp_path):
     np.save(tmp_path / "scan.npy", np.ones((2, 3)))
     with pytest.raises(hf.InputError, match="changed since"):
         hf.check_cell(cell)
+
+
+def test_batches_of_close_objects_agree_with_single_ones(rng):
+    """Of a batch only the spheres and objects that may be nearest are looked at; of one configuration all of them are."""
+    arm = hf.arms.load("panda")
+    plates = [((0.45, 0.1 * k - 0.2, 0.5), 0.3 * k, (0.3, 0.3, 0.01)) for k in range(4)]
+    cell = hf.Cell([Mesh(f"plate{k}", plate(size), pose=posed(place, angle)) for k, (place, angle, size) in enumerate(plates)])
+    clearance = hf.Clearance(arm, cell=cell)
+    low, high = np.array(arm.finite_limits).T if np.ndim(arm.finite_limits) == 2 else arm.finite_limits
+    q = rng.uniform(low, high, (200, arm.n))
+    objects = clearance.obstacles
+    for measure in (objects.distances, objects.least, objects.room):
+        np.testing.assert_array_equal(measure(q), np.concatenate([measure(row[None]) for row in q]))

@@ -9,7 +9,9 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -165,7 +167,9 @@ def test_a_chunk_written_but_not_committed_is_computed_again(folder):
 SLOW = """
 import os, sys, time
 import numpy as np
+from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 sys.path.insert(0, sys.argv[2])
 import test_store as t
 s = t.make(Path(sys.argv[1]))
@@ -458,6 +462,41 @@ def test_a_writer_in_another_program_is_noticed_and_its_lock_dies_with_it(folder
         process.kill()
         process.wait(20)
     assert fill(folder).complete
+
+
+class Msvcrt(ModuleType):
+    """The locks of Windows: on a byte of a file, until the handle that locked it is closed."""
+
+    LK_NBLCK = 2
+
+    def __init__(self) -> None:
+        super().__init__("msvcrt")
+        self.holders: dict[int, tuple[int, int]] = {}
+
+    def locking(self, handle: int, mode: int, count: int) -> None:
+        assert (mode, count) == (self.LK_NBLCK, 1)
+        state = os.fstat(handle)
+        for other, file in self.holders.items():
+            now = None
+            with suppress(OSError):  # closed: its lock is gone
+                now = os.fstat(other)
+            if other != handle and now is not None and file == (state.st_dev, state.st_ino) == (now.st_dev, now.st_ino):
+                raise PermissionError(errno.EACCES, "Permission denied")
+        self.holders[handle] = (state.st_dev, state.st_ino)
+
+
+def test_two_writers_at_once_on_windows(folder, monkeypatch):
+    windows = Msvcrt()
+    monkeypatch.setitem(sys.modules, "fcntl", None)
+    monkeypatch.setitem(sys.modules, "msvcrt", windows)
+    first, second = make(folder), make(folder)
+    with first.writing():
+        assert len(windows.holders) == 1
+        with pytest.raises(StoreError, match=f"another program is writing to '{folder}'"), second.writing():
+            pass
+        first.write(0, rows(0, 5))
+    with second.writing():
+        assert second.done == [0]
 
 
 def test_an_error_inside_gives_the_lock_back(folder):
