@@ -32,6 +32,15 @@ def test_pipes_and_devices_are_refused_at_once(tmp_path, suffix):
             hf.check_certificate(tmp_path / (name + suffix))
 
 
+def refusal(file):
+    """Return the error of a check; other errors than those of holdfast are raised."""
+    try:
+        hf.check_certificate(file)
+    except hf.HoldfastError as error:
+        return error
+    return None
+
+
 @pytest.mark.parametrize("method", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
 def test_damaged_archives_are_refused_with_a_sentence(small, tmp_path, rng, method):
     file = tmp_path / "a.zip"
@@ -43,11 +52,9 @@ def test_damaged_archives_are_refused_with_a_sentence(small, tmp_path, rng, meth
         changed = bytearray(original)
         changed[place // 8] ^= 1 << (place % 8)
         file.write_bytes(changed)
-        try:
-            assert hf.check_certificate(file).ok  # a time stamp or a name
-        except hf.HoldfastError as error:
-            assert "\n" not in str(error)
-            assert "None" not in str(error)
+        said = "" if (error := refusal(file)) is None else str(error)  # None: a time stamp or a name was changed
+        assert "\n" not in said
+        assert "None" not in said
 
 
 def test_a_folder_stands_for_the_certificate_in_it(small, three, tmp_path):
