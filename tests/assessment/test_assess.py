@@ -19,6 +19,7 @@ from holdfast.errors import HoldfastError, InputError, StoreError, TaskError
 from holdfast.indices import CustomIndex, by_name
 from holdfast.regions.region import builtin_region
 from holdfast.status import Status
+from sealing import read_unsealed
 
 PAPER = builtin_region("pa10-9dof")
 FAR = Region.box([10, 0, 0], 0.1)
@@ -434,7 +435,7 @@ def test_a_lost_chunk_of_any_variable_is_noticed(name, three, tmp_path):
 def test_a_lost_column_is_noticed(name, three, tmp_path):
     assess(three, THREE, task="planar", poses=10, store=tmp_path / "run")
     file = tmp_path / "run" / "run.json"
-    run = json.loads(file.read_text())
+    run = read_unsealed(file)
     run["columns"] = [c for c in run["columns"] if c[0] != name]
     file.write_text(json.dumps(run))
     with pytest.raises(StoreError, match=f"its column '{name}' is lost"):
@@ -478,7 +479,7 @@ def test_a_damaged_array_is_noticed(name, how, three, tmp_path):
 def test_a_plan_without_a_part_is_called_damaged_or_foreign(key, three, tmp_path):
     assess(three, THREE, task="planar", poses=10, store=tmp_path / "run")
     file = tmp_path / "run" / "run.json"
-    run = json.loads(file.read_text())
+    run = read_unsealed(file)
     del run["plan"][key]
     file.write_text(json.dumps(run))
     with pytest.raises(StoreError, match="not an assessment" if key == "kind" else f"damaged.*{key}"):
@@ -501,7 +502,7 @@ def test_a_plan_without_a_part_is_called_damaged_or_foreign(key, three, tmp_path
 def test_a_plan_with_nonsense_gives_a_sentence(change, three, tmp_path):
     assess(three, THREE, task="planar", poses=10, store=tmp_path / "run")
     file = tmp_path / "run" / "run.json"
-    run = json.loads(file.read_text())
+    run = read_unsealed(file)
     change(run["plan"])
     file.write_text(json.dumps(run))
     with pytest.raises(HoldfastError) as caught:

@@ -12,6 +12,7 @@ import holdfast as hf
 import oracles
 from holdfast.cell import Sphere
 from holdfast.errors import InputError, StoreError
+from sealing import read_unsealed
 
 WIDTH = 0.03
 DISCS = [("near", (0.9, 0.9), 0.3), ("far", (-0.6, 1.2), 0.25)]
@@ -194,7 +195,7 @@ def test_a_run_resumes_with_the_same_files_elsewhere(arm, call, tmp_path):
     with pytest.raises(StoreError, match="holds another run: its cell is"):
         hf.assess(arm, **call | {"cell": made("else", height=0.1)})
     # As it was stored when the path of the capsule file counted, relative to wherever the command ran.
-    said = json.loads((tmp_path / "run" / "run.json").read_text())
+    said = read_unsealed(tmp_path / "run" / "run.json")
     around = said["plan"]["cell"]
     around["data"]["arm"]["shape"] = "shape.yaml"
     around["sha256"] = again.plan.cell.digest_with("shape.yaml")

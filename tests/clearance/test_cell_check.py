@@ -17,6 +17,22 @@ def at(*xyz: float) -> np.ndarray:
     return pose
 
 
+BOX = [
+    [0, 1, 3],
+    [0, 3, 2],
+    [0, 4, 5],
+    [0, 5, 1],
+    [0, 2, 6],
+    [0, 6, 4],
+    [7, 5, 4],
+    [7, 4, 6],
+    [7, 6, 2],
+    [7, 2, 3],
+    [7, 3, 1],
+    [7, 1, 5],
+]
+
+
 @pytest.fixture
 def cell(monkeypatch):
     monkeypatch.setattr(field, "_NODES", 5_000)
@@ -66,3 +82,15 @@ def test_nothing_is_said_of_a_cell_whose_files_changed(tmp_path):
     np.save(tmp_path / "scan.npy", np.ones((2, 3)))
     with pytest.raises(hf.InputError, match="changed since"):
         hf.check_cell(cell)
+
+
+def test_batches_of_close_objects_agree_with_single_ones(rng, monkeypatch):
+    """Of a batch only the spheres and objects that may be nearest are read; of a single configuration all of them are."""
+    monkeypatch.setattr(field, "_NODES", 5_000)
+    corners = np.array([[x, y, z] for x in (-0.2, 0.2) for y in (-0.03, 0.03) for z in (-0.1, 0.1)])
+    plates = [Mesh(f"plate{k}", (corners, BOX), solid="hull", pose=at(0.45, 0.08 * k, 0.5)) for k in range(-3, 4)]
+    objects = hf.Clearance(hf.arms.load("panda"), cell=hf.Cell(plates)).obstacles
+    q = rng.uniform(*finite_limits(objects.arm), (400, objects.arm.n))
+    for measure in (objects.distances, objects.least):
+        singly = np.concatenate([measure(row[None]) for row in q])
+        np.testing.assert_allclose(measure(q), singly, rtol=0, atol=1e-9)

@@ -17,6 +17,7 @@ from holdfast.convergence.healthy_motion import HealthyPaths
 from holdfast.convergence.places import configurations_at, lattice, read_places
 from holdfast.convergence.slow_endings import arriving
 from holdfast.present.convergence import origins as workspace_output
+from sealing import read_unsealed
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.
 PUBLISHED = {
@@ -211,7 +212,7 @@ def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
         run(0.1, 1.00000001)
     # Holdfast 0.1 kept the words for people, of six digits: they stand for the law of which they say everything.
     file = tmp_path / "run" / "run.json"
-    data = json.loads(file.read_text())
+    data = read_unsealed(file)
     data["plan"] = {k: v for k, v in data["plan"].items() if k not in ("gain", "speed_limit", "task")}
     data["plan"]["law"] = first.law.describe()
     file.write_text(json.dumps(data))

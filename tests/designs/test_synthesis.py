@@ -206,6 +206,10 @@ def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_libra
         file.write_text(yaml.safe_dump(changed | {key: value}), encoding="utf-8")
         check = hf.designs.record(str(file)).check()
         assert any(said in claim for claim, holds in check.claims if not holds)
+    for value in (0.0, -1.0):  # every quantity of the book is positive
+        file.write_text(yaml.safe_dump(changed | {"value": value}), encoding="utf-8")
+        with pytest.raises(hf.InputError, match="value"):
+            hf.designs.record(str(file))
     assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in ("00", "05", 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
 
 

@@ -9,7 +9,9 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ import zarr
 
 from holdfast.engine import Column, Store, store
 from holdfast.errors import StoreError
+from holdfast.files.digest import seal_document
 
 COLUMNS = [
     Column("x", "float64", (("axis", 2),), units="m", about="where"),
@@ -47,6 +50,11 @@ def fill(folder, chunks=None) -> Store:
 
 def snapshot(folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def read_unsealed(file: Path):
+    """As tests/sealing.py, which the programs of this file cannot import."""
+    return {key: value for key, value in json.loads(file.read_text()).items() if key not in ("digest", "sealed")}
 
 
 def sentence(error) -> str:
@@ -98,7 +106,7 @@ def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
     """Its last digits differ: rows of both in one folder would be neither's."""
     fill(folder, [0, 1])
     file = folder / "run.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {"version": 1}))
+    file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
     before = snapshot(folder)
     with pytest.raises(StoreError) as error:
         make(folder)
@@ -110,7 +118,7 @@ def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
 def test_a_finished_run_of_the_earlier_backend_is_there(folder):
     fill(folder)
     file = folder / "run.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {"version": 1}))
+    file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
     assert make(folder).complete
 
 
@@ -159,7 +167,9 @@ def test_a_chunk_written_but_not_committed_is_computed_again(folder):
 SLOW = """
 import os, sys, time
 import numpy as np
+from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 sys.path.insert(0, sys.argv[2])
 import test_store as t
 s = t.make(Path(sys.argv[1]))
@@ -267,7 +277,7 @@ DAMAGED = {
     "a list": lambda text: "[1, 2]",
     "a number": lambda text: "3",
     "other format": lambda text: text.replace("holdfast-run", "someone-else"),
-    "other version": lambda text: text.replace('"version": 3', '"version": 4'),
+    "other version": lambda text: seal_document({**{k: v for k, v in json.loads(text).items() if k != "digest"}, "version": 4}),
     "nested too deep": lambda text: "[" * 100_000,
 }
 
@@ -294,7 +304,7 @@ def test_a_damaged_run_file_is_a_sentence(how, folder):
 def test_a_run_file_without_a_key_is_damaged(key, folder):
     fill(folder, [0])
     file = folder / "run.json"
-    run = json.loads(file.read_text())
+    run = read_unsealed(file)
     del run[key]
     file.write_text(json.dumps(run))
     for ask in (lambda: Store.open(folder), lambda: make(folder)):
@@ -309,7 +319,7 @@ def test_a_run_file_without_a_key_is_damaged(key, folder):
 def test_a_run_file_with_nonsense_is_damaged(change, folder):
     fill(folder, [0])
     file = folder / "run.json"
-    file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+    file.write_text(json.dumps({**read_unsealed(file), **change}))
     with pytest.raises(StoreError, match="damaged"):
         Store.open(folder)
 
@@ -452,6 +462,41 @@ def test_a_writer_in_another_program_is_noticed_and_its_lock_dies_with_it(folder
         process.kill()
         process.wait(20)
     assert fill(folder).complete
+
+
+class Msvcrt(ModuleType):
+    """The locks of Windows: on a byte of a file, until the handle that locked it is closed."""
+
+    LK_NBLCK = 2
+
+    def __init__(self) -> None:
+        super().__init__("msvcrt")
+        self.holders: dict[int, tuple[int, int]] = {}
+
+    def locking(self, handle: int, mode: int, count: int) -> None:
+        assert (mode, count) == (self.LK_NBLCK, 1)
+        state = os.fstat(handle)
+        for other, file in self.holders.items():
+            now = None
+            with suppress(OSError):  # closed: its lock is gone
+                now = os.fstat(other)
+            if other != handle and now is not None and file == (state.st_dev, state.st_ino) == (now.st_dev, now.st_ino):
+                raise PermissionError(errno.EACCES, "Permission denied")
+        self.holders[handle] = (state.st_dev, state.st_ino)
+
+
+def test_two_writers_at_once_on_windows(folder, monkeypatch):
+    windows = Msvcrt()
+    monkeypatch.setitem(sys.modules, "fcntl", None)
+    monkeypatch.setitem(sys.modules, "msvcrt", windows)
+    first, second = make(folder), make(folder)
+    with first.writing():
+        assert len(windows.holders) == 1
+        with pytest.raises(StoreError, match=f"another program is writing to '{folder}'"), second.writing():
+            pass
+        first.write(0, rows(0, 5))
+    with second.writing():
+        assert second.done == [0]
 
 
 def test_an_error_inside_gives_the_lock_back(folder):

@@ -19,6 +19,7 @@ from holdfast.engine import Cell, Column, Store, Study, Threads, journal, merge
 from holdfast.engine.folder import digest, held
 from holdfast.engine.journal import Entry, Journal, Lines
 from holdfast.errors import StoreError
+from sealing import read_unsealed
 
 HERE = str(Path(__file__).parent)
 
@@ -266,7 +267,7 @@ def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
     store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10, chunk=5)
     assert store.missing == [0, 1]
     file = tmp_path / "s" / "run.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {key: value}))
+    file.write_text(json.dumps(read_unsealed(file) | {key: value}))
     with pytest.raises(StoreError, match="is damaged: its"):
         Store.open(tmp_path / "s")
 
@@ -274,7 +275,7 @@ def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
 def test_chunks_of_one_row_of_a_large_run_are_no_hang(tmp_path):
     Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10**9, chunk=10**6)
     file = tmp_path / "s" / "run.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {"chunk": 1}))
+    file.write_text(json.dumps(read_unsealed(file) | {"chunk": 1}))
     with pytest.raises(StoreError, match="its chunk is missing or wrong"):
         Store.open(tmp_path / "s")
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,8 +18,9 @@ from holdfast.caching import cached_property
 from holdfast.engine.folder import is_plain
 from holdfast.errors import InputError, StoreError
 from holdfast.failures import failure_sets
-from holdfast.files import reading
+from holdfast.files.digest import seal_document
 from holdfast.files.output import replaced
+from holdfast.files.sealed import read_sealed
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
 from holdfast.result import Result
@@ -208,7 +208,7 @@ class Comparison(Result):
         for name, run in zip(self.names, self.assessments, strict=True):
             run.save(target / name, self.threshold)
         listed = [{"name": name, "tool": tool} for name, tool in zip(self.names, self.tools, strict=True)]
-        replaced(target / LIST, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
+        replaced(target / LIST, seal_document({"format": "holdfast-comparison", "sealed": True, "candidates": listed}))
         return [target / LIST, self.report(target / "report.html")]
 
 
@@ -277,8 +277,8 @@ def load_comparison(path: str | Path, threshold: float | None = None) -> Compari
     folder = Path(path)
     again = f"'{folder / LIST}' is damaged; give the same command to 'holdfast assess' again"
     try:
-        listed = [(c["name"], c["tool"]) for c in reading.parsed(folder / LIST)["candidates"]]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        listed = [(c["name"], c["tool"]) for c in read_sealed(folder / LIST)["candidates"]]
+    except (OSError, ValueError, KeyError, TypeError, InputError) as error:
         raise StoreError(again) from error
     if not all(is_plain(name) and (tool is None or isinstance(tool, str)) for name, tool in listed):
         raise StoreError(again)

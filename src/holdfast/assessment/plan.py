@@ -179,6 +179,8 @@ class Plan:
     def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:
         """The plan that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
         arm = from_dict(data["arm"])
+        if data["fingerprint"] != arm.fingerprint:
+            raise InputError("its fingerprint is not that of its arm, so its rows may be those of another arm")
         task = Task.from_dict(data["task"])
         index = by_name(data["index"], arm, task, failures=[list(f) for f in data["failures"]])
         region = Region.from_dict(data["region"])

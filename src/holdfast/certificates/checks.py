@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from time import monotonic
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.errors import InputError
+from holdfast.certificates.documents import need_arm, qualify_claim
+from holdfast.errors import HoldfastError, InputError
 from holdfast.notice import says
 from holdfast.result import Result
 
@@ -51,36 +55,84 @@ class CertificateCheck(Result):
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        return [self.claim, self.said]
+        return [qualify_claim(self.claim, self.proved), self.said]
+
+    @property
+    def proved(self) -> Fraction:
+        """Exact fraction of the claim that is proved; of a bundle in its worst part."""
+        return 1 - self.undecided - self.refuted
+
+
+class CheckStopped(HoldfastError):
+    """The check of a certificate reached its time limit."""
 
 
 @checked
 @says("checking the certificate")
 def check_certificate(
-    file: str | Path, *, arm: Arm | None = None, sample: int | None = None, workers: int = 1
+    file: str | Path,
+    *,
+    arm: Arm | None = None,
+    sample: int | None = None,
+    workers: int = 1,
+    time_limit: float | None = None,
 ) -> CertificateCheck:
     """Check a certificate by the verifier, which shares nothing with the prover but the sentence of the claim.
 
     Args:
-        file: The certificate; the parts of a bundle lie beside it.
+        file: The certificate, or the folder that holds it; the parts of a bundle lie in the same folder.
         arm: The arm that it must be about, to the last digit of its geometry and limits; None: it may be any.
         sample: Only so many cells of each part, drawn at random: then it is sampled, not verified.
         workers: Processes.
+        time_limit: Time limit in seconds, after which the check ends without a result; None: no limit.
 
     Raises:
+        CheckStopped: The time limit was reached.
         InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra
             ``certify``).
     """
+    file = _find_in_folder(Path(file))
     if workers < 1 or (sample is not None and sample < 1):
         raise InputError("sample and workers must be 1 or more")
     try:
         if arm is not None:
-            from holdfast.certificates.documents import need_arm
-
             need_arm(verifier.load(Path(file)), arm)
-        return _of(verifier.verify(file, sample=sample, workers=workers))
+        return _of(verifier.verify(file, sample=sample, workers=workers, progress=_stop_after(time_limit)))
     except verifier.Refused as error:
         raise InputError(str(error)) from error
+
+
+def need_flint() -> None:
+    """Refuse a check where python-flint is not installed.
+
+    Raises:
+        InputError: It is not.
+    """
+    if verifier.balls.flint is None:
+        raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
+
+
+def _stop_after(time_limit: float | None) -> Callable[[int], None]:
+    end = math.inf if time_limit is None else monotonic() + time_limit
+
+    def stop(checked_leaves: int) -> None:
+        if monotonic() > end:
+            raise CheckStopped(f"the check was not finished within {time_limit:g} s; nothing is verified")
+
+    return stop
+
+
+def _find_in_folder(path: Path) -> Path:
+    """Return the certificate in a folder, of a bundle the one that names its parts; another path is returned as it is."""
+    if not path.is_dir():
+        return path
+    files = sorted(path.glob("*.certificate"))
+    # The parts of a bundle are named after it: its own name is the beginning of all others.
+    whole = [file for file in files if all(other.stem.startswith(file.stem) for other in files)]
+    if len(whole) != 1:
+        number = f"{len(files)} certificates, of which none is a bundle of the others" if files else "no certificate"
+        raise InputError(f"'{path}' is a folder that holds {number}; give the name of a certificate")
+    return whole[0]
 
 
 def _of(found: verifier.Verdict) -> CertificateCheck:

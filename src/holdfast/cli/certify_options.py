@@ -103,7 +103,7 @@ class Configurations:
 class Search:
     """How long it may take, and where it is remembered."""
 
-    time_limit: Annotated[float | None, "s after which the rest is undecided."] = None
+    time_limit: Annotated[float | None, "Time limit of search and check together, s; half of it is kept for the check."] = None
     workers: Annotated[int, "Processes; the certificate is the same."] = 1
     store: Annotated[
         Path | None, "Folder that remembers what is done, so that the same command resumes a search that was stopped or killed."

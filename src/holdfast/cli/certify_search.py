@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import typer
@@ -29,15 +30,32 @@ def _need_place(out: Path, folder: bool) -> None:
 def proved(claim: Any, search: Search, written: Written, **how: Any) -> None:
     """Search, write, check, draw, print."""
     from holdfast.certificates import PathProof, TolerantClaim
+    from holdfast.certificates.checks import CheckStopped, need_flint
     from holdfast.present.certificates.console import state
 
     _need_place(written.out, isinstance(claim, TolerantClaim))
+    if search.check:
+        need_flint()
+    # Of a limited time half is kept for the check, which gets what the search leaves as well.
+    begin, limit = monotonic(), search.time_limit
+    if limit is not None and search.check:
+        limit /= 2
     bar = progress_bar(written.json_, "ten-thousandths")
     with stopping("") as stop, bar as progress:
-        how |= {"time_limit": search.time_limit, "workers": search.workers, "store": search.store}
+        how |= {"time_limit": limit, "workers": search.workers, "store": search.store}
         proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
     file = proof.write(written.out)
-    found = hf.check_certificate(file) if search.check and not stop() else None
+    found = None
+    if search.check and not stop():
+        left = None if search.time_limit is None else max(0.0, search.time_limit - (monotonic() - begin))
+        try:
+            found = hf.check_certificate(file, time_limit=left)
+        except CheckStopped:
+            typer.echo(
+                f"The time limit of {search.time_limit:g} s ended the check, so {file} is not verified; "
+                f"'holdfast certificate check {file}' verifies it.",
+                err=True,
+            )
     page = [] if written.report is None else [proof.report(written.report, command=said(), check=found, file=file)]
     printed(found or proof, written.json_, [file, *drawn(proof, written.plot), *page])
     if stop():
@@ -46,5 +64,5 @@ def proved(claim: Any, search: Search, written: Written, **how: Any) -> None:
         raise typer.Exit(REJECTED)
     if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound | PathProof) and proof.refuted:
         raise typer.Exit(REFUTED)
-    if not proof.ok:
+    if not proof.ok or (search.check and found is None):
         raise typer.Exit(NOT_MET)

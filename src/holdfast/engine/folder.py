@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -80,16 +81,23 @@ def held(folder: Path, name: str) -> Iterator[None]:
         handle = os.open(folder / name, os.O_CREAT | os.O_RDWR, 0o644)
     try:
         try:
-            import fcntl
-
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except ImportError:  # no such locks on this system
-            pass
+            _lock(handle)
         except OSError as error:
             raise StoreError(f"another program is writing to '{folder}'; wait for it or stop it") from error
         yield
     finally:
         os.close(handle)
+
+
+def _lock(handle: int) -> None:
+    """Lock an open file for this program until it is closed; raise OSError where another program holds the lock."""
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        msvcrt = importlib.import_module("msvcrt")
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+    else:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def digest(columns: Mapping[str, NDArray[Any]]) -> str:

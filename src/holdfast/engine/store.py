@@ -22,9 +22,11 @@ from numpy.typing import NDArray
 
 from holdfast.engine.folder import SAFE, difference, digest, held, is_plain, shortened, taken_for, too_many
 from holdfast.engine.journal import Entry, Journal
-from holdfast.errors import StoreError
+from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
+from holdfast.files.digest import seal_document
 from holdfast.files.output import guarded, made, occupied, replaced
+from holdfast.files.sealed import read_sealed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -128,6 +130,7 @@ class Store:
         run = {
             "format": _FORMAT,
             "version": _VERSION,
+            "sealed": True,
             "plan": plan,
             "rows": rows,
             "chunk": chunk,
@@ -155,8 +158,8 @@ class Store:
         if not reading.exists(file):
             raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN}; give the folder that --out named")
         try:
-            run = reading.parsed(file)
-        except (OSError, ValueError) as error:
+            run = read_sealed(file)
+        except (OSError, ValueError, InputError) as error:
             raise StoreError(
                 f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder"
             ) from error
@@ -432,7 +435,7 @@ class Store:
                 array.attrs.update({"units": c.units, "long_name": c.about})
 
     def _commit(self, what: str = "", advice: str = SAFE) -> None:
-        replaced(self.path / _RUN, json.dumps(self._run, indent=1), what, advice)
+        replaced(self.path / _RUN, seal_document(self._run), what, advice)
 
 
 def _wrong(run: Mapping[str, Any]) -> str | None:

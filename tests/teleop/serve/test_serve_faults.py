@@ -1,6 +1,10 @@
 """What goes wrong around a server: a folder that goes away, an answer that is lost, a restart, a page that sends too much."""
 
 import json
+import socket
+import subprocess
+import sys
+import time
 import urllib.request
 
 import numpy as np
@@ -11,6 +15,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 import holdfast as hf
+from conftest import PROGRAM
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.verification import verify
 from holdfast.teleop.serve import messages
@@ -146,3 +151,18 @@ def test_a_rating_of_the_training_is_refused(server, protocol, rng):
     client.socket.send(json.dumps({"type": "rate", "seq": client.seq + 1, "rating": 1, "answers": {}}))
     assert "one of the training" in client.receive().reason
     client.socket.close()
+
+
+def test_a_post_that_breaks_off_leaves_no_traceback(built, protocol, tmp_path):
+    """The experimenter's browser loses its connection within the body of a request."""
+    Records.create(tmp_path / "experiment", protocol).close()
+    program = [sys.executable, str(PROGRAM), str(tmp_path / "experiment"), *map(str, built)]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as server:
+        port = int(server.stdout.readline())
+        with socket.create_connection(("127.0.0.1", port)) as client:
+            head = f"POST /experimenter/pause?key={KEY} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 100\r\n"
+            client.sendall(f"{head}Content-Type: application/json\r\n\r\n{{".encode())
+            time.sleep(0.2)
+        urllib.request.urlopen(f"http://127.0.0.1:{port}/experimenter/subjects.json?key={KEY}", timeout=30).read()
+        server.terminate()
+        assert "Traceback" not in server.communicate(timeout=30)[1]

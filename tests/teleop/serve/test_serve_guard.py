@@ -1,18 +1,22 @@
 """Who is let in: hosts, origins, token and key; what is handed out; what never is."""
 
+import asyncio
 import http.client
 import json
 import socket
 from types import SimpleNamespace
 
 import pytest
+import uvicorn
 from serve_program import KEY
+from starlette.responses import PlainTextResponse
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import holdfast as hf
-from holdfast.teleop.serve.app import Options, make_app, prepare
-from holdfast.teleop.serve.guard import Bucket, Guard, Wrong, check_token
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.serve.app import Options, make_app, prepare, serve
+from holdfast.teleop.serve.guard import Bucket, Guard, Guarded, Wrong, check_token
 
 TOKEN = "token-of-the-experiment"
 
@@ -175,14 +179,56 @@ def test_tokens_that_can_be_guessed_are_refused():
             check_token(token)
 
 
-def test_guessing_gets_slow(start, tmp_path):
-    """After two hundred wrong tokens an address is not even listened to for a while, whatever it shows."""
+def test_wrong_secrets_are_counted_and_right_ones_always_pass(start, tmp_path):
+    """After two hundred wrong ones an address is told to wait, whatever it claims to be."""
     asker = Asker(start(tmp_path / "experiment", TOKEN).port)
-    assert asker.get(f"/?token={TOKEN}").status_code == 200
     assert [asker.get(f"/?token=wrong-{k}").status_code for k in range(200)] == [403] * 200
-    asked = [asker.get(f"/?token={TOKEN if k % 2 else 'wrong'}").status_code for k in range(4)]
-    assert 429 in asked
-    assert asker.get("/experimenter?key=wrong").status_code in (403, 429)
+    forged = [{}, {"x-forwarded-for": "203.0.113.7"}, {"forwarded": "for=203.0.113.8"}, {"x-real-ip": "203.0.113.9"}]
+    asked = [asker.get("/experimenter?key=wrong", headers=forged[k % 4]).status_code for k in range(8)]
+    assert asked[-4:] == [429] * 4
+    assert asker.get(f"/experimenter?key={KEY}").status_code == 200
+    assert asker.get(f"/?token={TOKEN}").status_code == 200
+    assert asker.connects(f"/session?token={TOKEN}")
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site"])
+@pytest.mark.parametrize("mode", ["no-cors", "cors", "navigate"])
+def test_pages_of_other_servers_use_up_no_attempts(site, mode):
+    """The headers are those that a browser sends for an image, a script, a frame, and a link of another page."""
+    guarded = Guarded(answer_here, Guard(token=TOKEN, key=KEY))
+    for dest in ("image", "iframe", "document"):
+        said = {"sec-fetch-site": site, "sec-fetch-mode": mode, "sec-fetch-dest": dest}
+        assert {asked(guarded, f"key=wrong-{k}", said) for k in range(300)} == {403}
+        follows_link = mode == "navigate" and dest == "document"
+        assert asked(guarded, f"key={KEY}", said) == (200 if follows_link else 403)
+    assert [asked(guarded, f"key=wrong-{k}", {}) for k in range(220)][-1] == 429
+    assert asked(guarded, f"key={KEY}", {}) == 200
+
+
+async def answer_here(scope, receive, send):
+    await PlainTextResponse("here")(scope, receive, send)
+
+
+def asked(app, query, headers):
+    """The status with which an application answers the experimenter's browser."""
+    sent = []
+
+    async def send(message):
+        sent.append(message)
+
+    said = [(b"host", b"localhost:8000"), *((k.encode(), v.encode()) for k, v in headers.items())]
+    scope = {"type": "http", "method": "GET", "path": "/experimenter", "query_string": query.encode(), "headers": said}
+    asyncio.run(app({**scope, "client": ("127.0.0.1", 4)}, None, send))
+    return sent[0]["status"]
+
+
+def test_a_proxy_is_believed_only_if_asked_for(built, protocol, tmp_path, monkeypatch):
+    configured = []
+    monkeypatch.setattr(uvicorn.Server, "run", lambda self, sockets: configured.append(self.config))
+    Records.create(tmp_path / "experiment", protocol).close()
+    for behind_proxy in (False, True):
+        serve(Options(tmp_path / "experiment", static=built[0], english=built[1], behind_proxy=behind_proxy), port=0)
+    assert [config.proxy_headers for config in configured] == [False, True]
 
 
 def test_wrong_tokens_are_counted_by_address():
@@ -231,3 +277,18 @@ def test_an_experiment_is_begun_or_opened(protocol, tmp_path):
 def test_a_missing_page_is_one_sentence(built, served, tmp_path):
     with pytest.raises(hf.StoreError, match="the built page is not in this installation"):
         make_app(Options(served.folder, static=tmp_path, english=built[1]))
+
+
+def test_a_server_that_cannot_run_begins_no_experiment(built, tmp_path):
+    """The port is taken, the page is missing, or the translation cannot be used."""
+    folder = tmp_path / "experiment"
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        with pytest.raises(hf.StoreError, match="cannot listen"):
+            serve(Options(folder, static=built[0], english=built[1]), port=taken.getsockname()[1])
+    with pytest.raises(hf.StoreError, match="built page"):
+        serve(Options(folder, static=tmp_path, english=built[1]), port=0)
+    with pytest.raises(hf.HoldfastError):
+        serve(Options(folder, texts=tmp_path / "none.yaml", static=built[0], english=built[1]), port=0)
+    assert not folder.exists()

@@ -53,7 +53,7 @@ class ManipulabilityBound(Halved):
         if self.refuted:
             return [self.document["claim"], f"Refuted by a witness: {occurs}."]
         return [
-            self.document["claim"],
+            documents.qualify_claim(self.document["claim"], self.proved),
             f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)} of the box, undecided "
             f"{verifier.per_cent(self.undecided, up=True)}{early(self.finished)}; {occurs}.",
             f"{self.leaves:,} boxes are proved, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",

@@ -221,5 +221,4 @@ class Running:
             one = not (claim.box[:, 1] > claim.box[:, 0]).any()
             what = "this target" if one else f"any of {drawn} targets of the box"
             return f"{who}no configuration is found for {what}: nothing can be proved; see certify out-of-reach", ""
-        share = f"some {100 * lost / drawn:.0f} % of it cannot be proved"
-        return "", f"{who}no configuration is found for {lost} of {drawn} targets of the box: {share}"
+        return "", f"{who}no configuration was found for {lost} of {drawn} sampled targets"

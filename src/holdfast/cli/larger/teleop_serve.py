@@ -12,7 +12,8 @@ from holdfast.files import reading
 
 _TLS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
   caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
-(start this command with --host 127.0.0.1 and a token then; the proxy must hand on the Host header, as Caddy does)"""
+(start this command with --host 127.0.0.1, --behind-proxy, and a token then; the proxy must hand on the Host
+header, as Caddy does)"""
 
 
 def serve(
@@ -32,6 +33,9 @@ def serve(
     token_file: Annotated[Path | None, "File whose first line is the token."] = None,
     texts: Annotated[Path | None, "Translation of the page's texts (YAML)."] = None,
     tlx: Annotated[bool, "Ask for the NASA task load index."] = False,
+    behind_proxy: Annotated[
+        bool, "Take addresses and https from the headers X-Forwarded-For and X-Forwarded-Proto of a proxy on this computer."
+    ] = False,
 ) -> None:
     """Serve the web pages of an experiment.
 
@@ -56,14 +60,14 @@ def serve(
             f"--host {host} lets other computers in; add --token-file, or HOLDFAST_TOKEN, with a random secret of 12 "
             "letters and digits or more"
         )
-    app.prepare(data, protocol)
-    options = app.Options(data, Guard(token=token, loopback=loopback and token is None), texts, tlx)
+    guard = Guard(token=token, loopback=loopback and token is None)
+    options = app.Options(data, guard, texts, tlx, protocol=protocol, behind_proxy=behind_proxy)
 
     def ready(at: int) -> None:
         name = "[::1]" if host == "::1" else host
         base = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::') else name}:{at}"
         typer.echo(f"station:      {base}/{'' if token is None else f'?token={token}'}")
-        typer.echo(f"experimenter: {base}/experimenter?key={options.guard.key}")
+        typer.echo(f"experimenter: {base}/experimenter?key={guard.key}")
         if not loopback:
             typer.echo(_TLS.format(host=host, port=at))
         typer.echo(f"records:      {data}; Ctrl-C ends the server, and what was acknowledged is on the disk")

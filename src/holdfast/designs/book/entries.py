@@ -69,7 +69,7 @@ class RecordFile(Strict):
 
     id: str
     kind: _Class = Field(alias="class")
-    value: Number
+    value: Annotated[Number, Field(gt=0)]
     proven_bound: _Bound
     found: _Found
     arm: dh_file.ArmFile | None = None

@@ -55,6 +55,8 @@ class Options:
         tlx: Ask for the NASA task load index.
         static: Where the built page is.
         english: Which texts there are.
+        protocol: Name or file; None for the protocol of the experiment, or the paper's for a new one.
+        behind_proxy: A proxy on this computer sets ``X-Forwarded-For`` and ``X-Forwarded-Proto``; otherwise both are ignored.
     """
 
     folder: Path
@@ -63,6 +65,8 @@ class Options:
     tlx: bool = False
     static: Path = STATIC
     english: Path = ENGLISH
+    protocol: str | None = None
+    behind_proxy: bool = False
 
 
 def prepare(folder: Path, protocol: str | None) -> Protocol:
@@ -89,15 +93,15 @@ def prepare(folder: Path, protocol: str | None) -> Protocol:
 
 
 def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIApp:
-    """The application.
+    """Open or begin the experiment, and return the application that serves it.
 
     Args:
-        options: What is served.
-        ready: Is told when stations may come.
+        options: Experiment, guard, texts, and page.
+        ready: Called when stations can connect.
 
     Raises:
-        StoreError: The built page is missing, or the folder holds no experiment.
-        InputError: Texts that cannot be used.
+        StoreError: The built page is missing, or the folder is neither empty nor an experiment.
+        InputError: The texts cannot be used, or the experiment has another protocol.
     """
     from holdfast.teleop.protocol.printed_arm import arm_module
 
@@ -105,8 +109,7 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
     files = _files(options.static)
     # It has its route, which asks for the key.
     experimenters = files.pop("/experimenter.html", None)
-    with Records.open(options.folder) as records:
-        protocol = records.protocol
+    protocol = prepare(options.folder, options.protocol)  # after all that may fail: a server that cannot run begins nothing
     files["/experiment.json"] = _file(json.dumps(experiment(protocol, words, options.tlx)).encode(), ".json")
     files["/arm.js"] = _file(arm_module(protocol).encode(), ".js")
 
@@ -143,25 +146,27 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
         ready: Is told the port when stations may come.
 
     Raises:
-        StoreError: The port is taken, or this computer has no such address; the built page is missing, or the folder holds no
-            experiment.
-        InputError: Texts that cannot be used.
+        StoreError: The port is taken, or this computer has no such address; the built page is missing, or the folder is
+            neither empty nor an experiment.
+        InputError: The texts cannot be used, or the experiment has another protocol.
     """
     with _listening(host, port) as listener:
         at = listener.getsockname()[1]
         app = make_app(options, None if ready is None else lambda: ready(at))
+        http, websocket = bounded.protocols(bounded.files() // 2)
         config = uvicorn.Config(
             app,
             loop="asyncio",
-            http=bounded.protocol(bounded.files() // 2),
+            http=http,
             backlog=_AT_ONCE,
-            ws="websockets-sansio",
+            ws=websocket,
             ws_max_size=MOST_BYTES,
             ws_ping_timeout=60.0,
             ws_per_message_deflate=False,  # small messages on a near line: packing them takes longer than sending them
             log_level="warning",
             access_log=False,
             server_header=False,
+            proxy_headers=options.behind_proxy,
             timeout_graceful_shutdown=5,
         )
         logging.getLogger("uvicorn.error").addFilter(bounded.Sparing())

@@ -13,7 +13,7 @@ from urllib.parse import urlencode
 
 from pydantic import Field, ValidationError
 from starlette.background import BackgroundTask
-from starlette.requests import HTTPConnection, Request
+from starlette.requests import ClientDisconnect, HTTPConnection, Request
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -226,6 +226,8 @@ def _answering(endpoint: Endpoint) -> Endpoint:
             return refused(request, 400, str(error))
         except HoldfastError as error:
             return refused(request, 500, str(error))
+        except ClientDisconnect:
+            return Response(status_code=400)  # nobody receives it: the connection ended within the request
 
     return answer
 

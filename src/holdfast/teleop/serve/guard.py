@@ -41,16 +41,21 @@ class Guard:
     key: str = field(default_factory=lambda: secrets.token_urlsafe(18))
     loopback: bool = True
 
-    def fault(self, scope: Scope) -> str | None:
-        """What is wrong with a request; None for nothing."""
+    def find_foreign_source(self, scope: Scope) -> str | None:
+        """Return why a request does not come from this server's pages, a typed address, or a link; None if it does."""
         headers = Headers(scope=scope)
         origins = headers.getlist("origin")
         wrong = hosts.fault(headers.getlist("host"), origins, lambda name: not self.loopback or hosts.is_loopback(name))
         if wrong is not None:
             return wrong
-        unsafe = scope["type"] == "websocket" or scope["method"] not in ("GET", "HEAD")
-        if not origins and unsafe and headers.get("sec-fetch-site", "same-origin") != "same-origin":
+        reads = scope["type"] == "http" and scope["method"] in ("GET", "HEAD")
+        follows_link = reads and headers.get("sec-fetch-mode") == "navigate" and headers.get("sec-fetch-dest") == "document"
+        if comes_from_other_page(scope) and not origins and not follows_link:
             return "the request comes from a page of another host"
+        return None
+
+    def find_missing_secret(self, scope: Scope) -> str | None:
+        """Return which secret a request lacks; None if it shows what its path needs."""
         path = scope["path"]
         if any(path == area or path.startswith(area + "/") for area in _EXPERIMENTER):
             return (
@@ -83,6 +88,11 @@ class Guard:
         return f"{_cookie_name(self.token)}={self.token}; Path=/; HttpOnly; SameSite=Strict"
 
 
+def comes_from_other_page(scope: Scope) -> bool:
+    """Return whether the browser states that a page of another server caused the request."""
+    return Headers(scope=scope).get("sec-fetch-site", "none") not in ("same-origin", "none")
+
+
 def check_token(token: str) -> None:
     """Refuse a token that can be guessed, or that does not fit into a URL.
 
@@ -103,7 +113,7 @@ def check_token(token: str) -> None:
 
 
 class Wrong:
-    """Wrong tokens and keys, by address: whoever shows many has to wait.
+    """Counts of wrong tokens and keys, by address.
 
     Args:
         clock: Seconds.
@@ -122,7 +132,7 @@ class Wrong:
             del self._seen[next(iter(self._seen))]
 
     def must_wait(self, address: str) -> bool:
-        """Whether what an address shows is not even looked at."""
+        """Return whether an address has shown more wrong tokens and keys than it may."""
         bucket = self._seen.get(address)
         return bucket is not None and bucket.wait(0) > 0
 
@@ -139,12 +149,15 @@ class Guarded:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        client = scope.get("client")
-        address, shows = ("" if client is None else client[0]), self._guard.shows(scope)
-        waits = shows and self._wrong.must_wait(address)
-        fault = "too many wrong tokens or keys came from this address; wait" if waits else self._guard.fault(scope)
-        if fault is not None and shows and not waits:
-            self._wrong.count(address)
+        fault = self._guard.find_foreign_source(scope)
+        waits = False
+        if fault is None:
+            fault = self._guard.find_missing_secret(scope)
+            # A page of another server must not use up the attempts of the address whose browser shows that page.
+            if fault is not None and self._guard.shows(scope) and not comes_from_other_page(scope):
+                waits = self._count_wrong(scope)
+        if waits:
+            fault = "too many wrong tokens or keys came from this address; wait"
         if fault is not None and scope["type"] == "websocket":
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": fault})
@@ -167,6 +180,15 @@ class Guarded:
             await self._app(scope, receive, with_headers)
         else:
             await PlainTextResponse(f"Refused: {fault}.\n", status_code=429 if waits else 403)(scope, receive, with_headers)
+
+    def _count_wrong(self, scope: Scope) -> bool:
+        """Count a wrong token or key, and return whether its address has shown too many."""
+        client = scope.get("client")
+        address = "" if client is None else client[0]
+        waits = self._wrong.must_wait(address)
+        if not waits:
+            self._wrong.count(address)
+        return waits
 
 
 def _headers(host: str, known: bool) -> dict[str, str]:

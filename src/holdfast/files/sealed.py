@@ -1,0 +1,30 @@
+"""Reading of sealed JSON files, and of those that earlier versions wrote without a seal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from holdfast.errors import InputError
+from holdfast.files import reading
+from holdfast.files.digest import check_seal, is_sealed
+
+
+def read_sealed(path: str | Path) -> Any:
+    """Return the content of a JSON file without its digest, after comparing it with the digest.
+
+    A file without a digest is read only if it does not state that it is sealed: earlier versions wrote none.
+
+    Raises:
+        OSError: The file cannot be read.
+        ValueError: It is not UTF-8, not JSON, or nested too deep.
+        InputError: Its digest does not match.
+    """
+    content = reading.raw(path).decode()  # exactly: a changed end of a line counts as well
+    data = reading.parsed(path)
+    if isinstance(data, dict) and ("sealed" in data or "digest" in data or is_sealed(content)):
+        check_seal(content)
+        del data["digest"]
+    elif not isinstance(data, dict):
+        raise InputError("it is not a JSON object")
+    return data

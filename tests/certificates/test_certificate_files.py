@@ -1,0 +1,87 @@
+"""Files that are no certificate: devices, pipes, folders, damaged archives; and the folder that holds a bundle."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.certificates import checks, reach_claim, tolerant_claim
+from holdfast.certificates.documents import qualify_claim
+
+pytest.importorskip("flint", reason="python-flint is not installed")
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    """A certificate that is checked in a moment."""
+    arm = hf.arms.load("planar-3r")
+    return hf.certify(reach_claim(arm, (1.6, 0.4), 0.02)).write(tmp_path_factory.mktemp("small") / "a.certificate")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes and devices with names are those of Unix")
+@pytest.mark.parametrize("suffix", [".certificate", ".zip"])
+def test_pipes_and_devices_are_refused_at_once(tmp_path, suffix):
+    os.mkfifo(tmp_path / f"pipe{suffix}")
+    (tmp_path / f"zero{suffix}").symlink_to("/dev/zero")
+    for name in ("pipe", "zero"):
+        with pytest.raises(hf.InputError, match="it must be a regular file"):
+            hf.check_certificate(tmp_path / (name + suffix))
+
+
+def refusal(file):
+    """Return the error of a check; other errors than those of holdfast are raised."""
+    try:
+        hf.check_certificate(file)
+    except hf.HoldfastError as error:
+        return error
+    return None
+
+
+@pytest.mark.parametrize("method", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_damaged_archives_are_refused_with_a_sentence(small, tmp_path, rng, method):
+    file = tmp_path / "a.zip"
+    with zipfile.ZipFile(file, "w", method) as archive:
+        archive.writestr("a.certificate", small.read_bytes())
+    assert hf.check_certificate(file).ok
+    original = file.read_bytes()
+    for place in rng.integers(8 * len(original), size=60):
+        changed = bytearray(original)
+        changed[place // 8] ^= 1 << (place % 8)
+        file.write_bytes(changed)
+        said = "" if (error := refusal(file)) is None else str(error)  # None: a time stamp or a name was changed
+        assert "\n" not in said
+        assert "None" not in said
+
+
+def test_a_folder_stands_for_the_certificate_in_it(small, three, tmp_path):
+    claim = tolerant_claim(three, (1.6, 0.4), 0.02, failures=[0])
+    bundle = hf.certify(claim, halvings=1).write(tmp_path / "bundle")
+    in_folder, by_name = hf.check_certificate(tmp_path / "bundle"), hf.check_certificate(bundle)
+    assert (in_folder.claim, len(in_folder.parts)) == (by_name.claim, 2)
+    assert hf.check_certificate(small.parent).ok
+    for name in ("b", "c"):
+        (tmp_path / f"{name}.certificate").write_bytes(small.read_bytes())
+    with pytest.raises(hf.InputError, match="2 certificates, of which none is a bundle"):
+        hf.check_certificate(tmp_path)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(hf.InputError, match="a folder that holds no certificate"):
+        hf.check_certificate(tmp_path / "empty")
+
+
+def test_the_proved_fraction_stands_in_the_claim(three):
+    """A box of which the far half cannot be reached: the arm is 3 m long."""
+    proof = hf.certify(reach_claim(three, (3.0, 0.0), (1.0, 0.1)), halvings=4)
+    assert 0 < proof.proved < 1
+    first = proof.describe()[0]
+    assert first.startswith(f"Proved for only {hf.certificates.verifier.per_cent(proof.proved)} of this claim: For every")
+    assert qualify_claim("For every x.", np.float64(1)) == "For every x."
+
+
+def test_a_time_limit_ends_a_check(small):
+    with pytest.raises(checks.CheckStopped, match="nothing is verified"):
+        hf.check_certificate(small, time_limit=0.0)
+    assert hf.check_certificate(small, time_limit=600.0).ok

@@ -1,0 +1,12 @@
+"""Stored JSON files as earlier versions wrote them, without a digest, so that a test can change an entry."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+
+def read_unsealed(file: Path) -> dict[str, Any]:
+    """Return the content of a file without its digest and the statement that it has one."""
+    return {key: value for key, value in json.loads(file.read_text()).items() if key not in ("digest", "sealed")}
