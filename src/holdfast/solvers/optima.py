@@ -181,12 +181,12 @@ def optimise(
         cell: Objects around the arm, or their file, to keep clear of; the links are then kept apart as well, but for an arm
             that moves in a plane and with ``clearance=False``.
         margin: Smallest clearance, m; from an object beyond what the cell keeps from it.
-        initial: (n,) or (N, n), rad and m: configurations that the arm has at these poses, to compare with; they change no
-            result. Default: the first that inverse kinematics finds.
+        initial: (n,) or (N, n), rad and m: configurations to compare with. One that meets its pose within the limits is
+            also the first start of that pose. Default: the first that inverse kinematics finds.
 
     Returns:
-        :class:`Optima`. Their value is never worse than that of the first configuration found, unless that one runs the
-        arm through itself or an object.
+        :class:`Optima`. Their value is never worse than that of the first configuration found or given, unless that one
+        runs the arm through itself or an object.
 
     Raises:
         InputError: Poses that are not 4x4 transforms, options out of range, an objective or clearance of another arm, or a
@@ -224,6 +224,8 @@ def optimise(
         if free:
             return best_of_all(ascent, first, most)
         reach = ascent.engine.solve(part, first, restarts, within)
+        if given is not None:
+            reach = ascent.engine.prefer(reach, np.atleast_2d(given)[blocks[number]], part, within)
         found = ascent.solve(part, reach, others, most, within)
         tell(len(part))
         return found
