@@ -83,7 +83,6 @@ def broken_down(error: Exception) -> str:
     return f"a matrix could not be factored ({error}); a number of the arm or of the input is too large or too small"
 
 
-
 def checked_class(made: type[T]) -> type[T]:
     """The class, with a constructor that is :func:`checked`."""
     setattr(made, "__init__", checked(made.__init__))  # noqa: B010

@@ -130,3 +130,16 @@ class CustomIndex(FormulaIndex):
     def formula(self, j: SX) -> SX:
         """See :meth:`FormulaIndex.formula`."""
         return ca.SX(self._formula(j))
+
+    def with_failures(self, failures: FailureSpec) -> CustomIndex:
+        """See :meth:`Index.with_failures`."""
+        return CustomIndex(
+            self._formula,
+            self.arm,
+            self.task,
+            failures=failures,
+            name=self.name,
+            better=self.better,
+            unit=self.unit,
+            bound=self.bound,
+        )

@@ -405,7 +405,6 @@ class InverseKinematics:
         status[~finite] = Status.BAD_INPUT
         return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)
 
-
     def prefer(self, reach: Reach, q: Array, poses: Array, tolerance: float) -> Reach:
         """Replace the configurations of a result by those of q (N, n) that meet their poses (N, 4, 4) within the limits."""
         position_error, rotation_error = self.errors(q, poses)

@@ -117,7 +117,7 @@ def command(
     for c, (measure, options) in zip(candidates, asked, strict=True):
         if not json_:
             found = structure(c.arm, measure.task)
-            if not found.survives:
+            if not found.survives or found.weak:
                 console(stderr=True).print(explain(c.arm, found, structures(c.arm)), markup=False, soft_wrap=True)
         store = out / c.name if out is not None and several else out
         with progress_bar(json_, c.name if several else "poses") as progress:

@@ -16,7 +16,9 @@ from holdfast.arms.tool import attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
 from holdfast.notice import says
+from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
 from holdfast.present.assessment import thresholds
+from holdfast.present.assessment.console import best_upgrades
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections.upgrades import paired
 from holdfast.present.clearance.shape import cell_text
@@ -260,7 +262,7 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
     optimised = any(a.optimised is not None for a in c.assessments)
     for name, a in zip(c.names, c.assessments, strict=True):
         ranked = c.upgrades(name) if a.kept else []
-        best = {u.joint: u for u in c.upgrades(name, optimised=True)} if a.kept and a.optimised is not None else {}
+        best = {u.joint: u for u in best_upgrades(a, c.threshold)} if a.kept else {}
         for place, u in enumerate(ranked[:_MOST_UPGRADES]):
             row: list[Cell] = ["" if place else name, u.joint, f"{u.before:.3f}", f"{u.after:.3f}", paired(u)]
             if optimised:
@@ -277,6 +279,8 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
             f"failures in which it has no part, at the same {f.noun}s and configurations. The intervals are paired: a gain is "
             f"the fraction of the {f.noun}s that fail now and would not then."
         )
+        if optimised:
+            text += f" After optimisation: configurations of up to {MOST_OPTIMISED_AGAIN} {f.noun}s optimised again without it."
         blocks.append(Text(text, quiet=True))
     if missing:
         blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so they are not in this table."))

@@ -8,8 +8,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
+from holdfast.errors import InputError
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, plain
+from holdfast.words import counted
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -151,7 +154,16 @@ def _upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = Fals
     if not result.kept or not result.distribution.samples:
         return None
     threshold = thresholds[0] if thresholds else result.default_threshold()
-    return {"threshold": threshold, "joints": [asdict(u) for u in result.upgrades(threshold, optimised)]}
+    found = best_upgrades(result, threshold) if optimised else result.upgrades(threshold)
+    return {"threshold": threshold, "joints": [asdict(u) for u in found]}
+
+
+def best_upgrades(result: Assessment, threshold: float) -> list[Upgrade]:
+    """Gains at configurations optimised again without each joint; none where the run or its index does not allow that."""
+    try:
+        return [] if result.optimised is None else result.upgrades(threshold, optimised=True)
+    except InputError:  # an index of a class of the user's own cannot be built again for fewer failures
+        return []
 
 
 def _after_lock(result: Assessment) -> dict[str, Any] | None:
@@ -302,7 +314,7 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
         return
     threshold = thresholds[0] if thresholds else result.default_threshold()
     ranked = result.upgrades(threshold)
-    best = {u.joint: u for u in result.upgrades(threshold, optimised=True)} if result.optimised is not None else {}
+    best = {u.joint: u for u in best_upgrades(result, threshold)}
     some = [u for u in ranked if u.gain > 0 or (u.joint in best and best[u.joint].gain > 0)]
     condition = f"{'at least' if result.index.better == 'larger' else 'at most'} {threshold:g}"
     if not some:
@@ -314,6 +326,13 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
     for u in some:
         table.add_row(escape(u.joint), *_gain(u), *(_gain(best[u.joint]) if best else []))
     out.print(table)
+    if best:
+        count = min(result.distribution.samples, MOST_OPTIMISED_AGAIN)
+        now = next(iter(best.values())).before
+        out.print(
+            f"optimised: configurations of {counted(count, 'pose')} optimised again without that joint; with it {now:.4f}",
+            soft_wrap=True,
+        )
 
 
 def _gain(u: Upgrade) -> list[str]:
