@@ -43,7 +43,8 @@ JOINTS: list[tuple[dict[str, Any], str]] = [
     ({"type": "continuous", "lower": -np.inf, "upper": np.inf}, "it is continuous; analyses over the whole joint range need"),
     (
         {"upper": np.inf},
-        "it lacks a limit (one beyond 100 turns counts as none); analyses over the whole joint range need lower and upper, in rad",
+        "it lacks a limit (one beyond 100 turns counts as none); analyses over the whole joint range need lower and upper, in "
+        "rad",
     ),
     (
         {"type": "prismatic", "lower": -np.inf},

@@ -169,7 +169,7 @@ def test_the_axes_of_a_gen3_miss_a_point_by_12_mm():
     assert weak.axis_distance == pytest.approx(0.005375 + 0.006375, abs=1e-12)
     text = explain(arm, structure(arm, "pose"), structures(arm))
     assert "joint_4 (joint 4) nearly is" in text
-    assert "by only 11.7 mm" in text
+    assert "by 12 mm" in text
     assert text.endswith("A task that every single lock leaves possible: position.")
 
 

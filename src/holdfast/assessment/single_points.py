@@ -14,7 +14,7 @@ from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.errors import TaskError
 from holdfast.grammar import TASKS
 from holdfast.indices.determinants import Manipulability, RelativeManipulability
-from holdfast.words import either, fixed, number, percent
+from holdfast.words import either, number, percent
 
 Array = NDArray[np.float64]
 
@@ -214,8 +214,8 @@ def _describe_weak(arm: Arm, found: Structure, weak: WeakJoint) -> str:
     )
     if weak.axis_distance is not None:
         text += (
-            f" The three axes before the joint, or the three after it, miss a common point by only "
-            f"{fixed(1000 * weak.axis_distance, 1)} mm."
+            f" The three axes before the joint, or the three after it, miss a common point by "
+            f"{1000 * weak.axis_distance:.2g} mm."
         )
     return text
 

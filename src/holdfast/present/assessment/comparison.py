@@ -15,8 +15,8 @@ from holdfast.arm.model import Arm
 from holdfast.arms.tool import attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
-from holdfast.notice import says
 from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
+from holdfast.notice import says
 from holdfast.present.assessment import thresholds
 from holdfast.present.assessment.console import best_upgrades
 from holdfast.present.assessment.facts import Facts
