@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+import casadi as ca
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -179,3 +180,39 @@ def test_the_report_warns_of_the_elbow_of_a_gen3(tmp_path):
     assert '<div class="callout warn"><p><strong>The lock of joint_4 nearly ends this task</strong>' in page
     left = run.survival()["joint_4"].value
     assert f"Once joint_4 has locked, {percent(left)} of the poses" in page.replace("\u00a0", " ")
+
+
+@pytest.mark.parametrize("name", ["gen3", "panda", "iiwa14"])
+def test_the_joint_that_caps_the_value_is_named(name):
+    """Where it is named, brute force gains less than a tenth of a loss with it, and at least as much as the loss without it."""
+    arm = load(name)
+    q = np.array([0.3, 0.5, 0.2, 1.2 if name == "gen3" else -1.2, 0.4, 0.7, 0.1])
+    index = hf.indices.relative_manipulability(arm)
+    found = hf.optimise(arm, oracles.forward(arm, q[None])[0], index, initial=q)
+    if name == "panda":
+        assert found.cap is None
+        return
+    samples = rho(arm, self_motion(arm, found.poses, "pose", np.random.default_rng(3)), "pose")
+    before, after = (rho(arm, x[None], "pose")[0] for x in (q, found.q))
+    loss = (before - after).max()
+    assert found.cap.failure == arm.joint_names[3]
+    assert samples.min(axis=1).max() - before.min() < 0.1 * loss
+    others = [0, 1, 2, 4, 5, 6]
+    assert found.cap.remaining == tuple(others)
+    best = samples[:, others].min(axis=1).max()
+    assert best - before[others].min() > loss
+    again = hf.optimise(arm, found.poses, index.with_failures([[k] for k in others]), initial=q)
+    assert again.cap is None
+    assert_as_good([float(again.value)], [best])
+
+
+def test_what_an_index_of_ones_own_gains_without_a_joint():
+    """It is built again for fewer failures, like one that has a name."""
+    arm = load("planar-3r")
+    own = hf.indices.CustomIndex(lambda j: ca.sumsqr(j), arm, "planar")
+    poses = oracles.forward(arm, np.array([[0.3, 0.9, 0.7], [0.1, 1.5, -0.4]]))
+    run = hf.assess(arm, hf.Region.from_poses(poses), own, optimise=True)
+    for k in range(3):
+        again = own.with_failures([[i] for i in range(3) if i != k])
+        best = hf.optimise(arm, poses, again, starts=300).value
+        np.testing.assert_allclose(run.if_never_fails(k, optimised=True).values, np.sort(best), rtol=1e-3)
