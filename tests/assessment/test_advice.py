@@ -16,6 +16,9 @@ import holdfast as hf
 import oracles
 from holdfast.arm.machine import Joint
 from holdfast.assessment import explain, structure, structures
+from holdfast.present.assessment.explanations import explain_index
+from holdfast.present.assessment.facts import Facts
+from holdfast.registry import INDICES
 from holdfast.words import percent
 
 GEN3 = [  # Kinova Gen3 with 7 joints: origin in m, turn about x in rad, limit in rad; its shoulder axes miss a point by 12 mm
@@ -216,3 +219,28 @@ def test_what_an_index_of_ones_own_gains_without_a_joint():
         again = own.with_failures([[i] for i in range(3) if i != k])
         best = hf.optimise(arm, poses, again, starts=300).value
         np.testing.assert_allclose(run.if_never_fails(k, optimised=True).values, np.sort(best), rtol=1e-3)
+
+
+def test_thresholds_and_axes_fit_small_values():
+    """The bound is 0.378 and the elbow of a Gen3 caps the index near 0.02: usual thresholds would give rows of zeros."""
+    _, run, samples = case("gen3")
+    found = run.to_dict()
+    best = max(x.min(axis=1).max() for x in samples)
+    assert all(0 < p["at_least"] <= 1.01 * best for p in found["probability"])
+    assert max(p["value"] for p in found["optimised"]["probability"]) > 0
+    assert Facts(run, None).axis[-1] < 5 * best
+    assert Facts(run, 0.3).axis[-1] > 0.3  # a threshold that was asked for is always shown
+
+
+@pytest.mark.parametrize("name", [n for n in INDICES if n != "directional-velocity"])
+def test_every_index_is_explained_in_one_line(name):
+    assert explain_index(INDICES.make(name, load("panda")))
+
+
+def test_the_console_begins_with_the_reach_after_the_worst_lock():
+    _, run, _ = case("gen3")
+    shares = run.survival()
+    worst = min(shares, key=lambda joint: shares[joint].value)
+    assert run.describe()[0].startswith(
+        f"Once {worst} has locked, {percent(shares[worst].value)} of the poses of the region are"
+    )

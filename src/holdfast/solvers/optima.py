@@ -63,8 +63,8 @@ class Cap:
     def __str__(self) -> str:
         return (
             f"{self.failure} caps the value: after its failure the index is {number(self.before)} before optimisation and "
-            f"{number(self.after)} after it, while after a failure of {self.other} it is {number(self.other_before)} before and "
-            f"{number(self.other_after)} after"
+            f"{number(self.after)} after it, while after a failure of {self.other} it is {number(self.other_before)} "
+            f"before and {number(self.other_after)} after"
         )
 
 

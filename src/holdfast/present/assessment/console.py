@@ -8,8 +8,12 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from holdfast.assessment.answer import ZERO, Answer
 from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
 from holdfast.errors import InputError
+from holdfast.present.assessment.explanations import explain_index
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, plain
 from holdfast.words import counted
@@ -22,6 +26,7 @@ if TYPE_CHECKING:
     from holdfast.probability.distribution import Distribution
 
 Thresholds = Sequence[float] | None
+_USUAL_THRESHOLDS = (0.05, 0.1, 0.2, 0.3)  # of an index with a bound
 
 
 def key_table(result: Assessment) -> Rows:
@@ -179,11 +184,14 @@ def _after_lock(result: Assessment) -> dict[str, Any] | None:
 def _thresholds(result: Assessment, given: Thresholds) -> Sequence[float]:
     if given:
         return given
+    samples = [d for d in (result.distribution, result.optimised) if d is not None and d.reached]
+    highest = max((d.highest for d in samples), default=np.inf)
     if result.index.bound is not None:
-        return [h for h in (0.05, 0.1, 0.2, 0.3) if h < result.index.bound]
-    if not result.distribution.reached:
-        return []
-    return [float(f"{x:.3g}") for x in result.distribution.quantile([0.25, 0.5, 0.75]).tolist()]
+        usual = [h for h in _USUAL_THRESHOLDS if h < result.index.bound]
+        some = [h for h in usual if h <= highest]
+        if len(some) > 1 or highest <= ZERO or not samples:
+            return some or usual
+    return sorted({float(f"{x:.3g}") for d in samples for x in d.quantile([0.25, 0.5, 0.75]).tolist()})
 
 
 def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[str, Any]:
@@ -206,7 +214,12 @@ def show(
 
     del report  # is named with the files that were written
     d = result.distribution
-    out.print(f"[bold]{escape(result.arm.title)}[/]: {escape(result.index.describe())}", soft_wrap=True)
+    if d.samples:
+        out.print(f"[bold]{escape(Answer(result, thresholds[0] if thresholds else None).headline)}[/]", soft_wrap=True)
+    out.print(f"{escape(result.arm.title)}: {escape(result.index.describe())}", soft_wrap=True)
+    explanation = explain_index(result.index)
+    if explanation:
+        out.print(f"{escape(result.index.name)}: {escape(explanation)}", soft_wrap=True)
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
     if not result.complete:
         out.print(

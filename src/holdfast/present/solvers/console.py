@@ -207,7 +207,8 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
     unit = "" if optima.objective.unit in ("1", "mixed") else f" {escape(optima.objective.unit)}"
     first = _first(optima)
     over = _failures(optima)
-    head = f"{asked or _wish(optima)}{'' if over is None else f' over failures {over}'}, arm {optima.arm.title}, task {optima.task.describe()}"
+    wish = (asked or _wish(optima)) + ("" if over is None else f" over failures {over}")
+    head = f"{wish}, arm {optima.arm.title}, task {optima.task.describe()}"
     out.print(escape(head), soft_wrap=True)
     if len(found.poses) == 1:
         _show_one(found, out, first, unit)
