@@ -27,7 +27,7 @@ from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import article, as_given, counted, fixed, interval, number, percent
+from holdfast.words import article, as_given, counted, fixed, half_width, interval, number, percent
 
 _MOST_UPGRADES = 3  # joints per candidate; its own report has all
 
@@ -250,7 +250,7 @@ def _distributions(c: Comparison, f: Facts) -> list[Block]:
     if any(a.distribution.unreached for a in c.assessments):
         text += f"A pose without a configuration counts as {'0' if f.larger else 'infinite'}. "
     width = max(a.distribution.band() for a in c.assessments)
-    text += f"The 95 % band of each curve is ±{width:.3f}."
+    text += f"The 95 % band of each curve is {half_width(width)}."
     picture = Picture(drawing.svg(drawn["compare"], "compare", "Cumulative distributions of all candidates"), text)
     return [picture, _asked(c, f, drawn["compare"], width)]
 

@@ -19,7 +19,7 @@ from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene
 from holdfast.report.views import SIDE, View, sides
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.words import as_given, number
+from holdfast.words import as_given, half_width, number
 
 Array = NDArray[np.float64]
 
@@ -214,7 +214,7 @@ class Facts(Answer):
         first = Curve(
             self.axis,
             self.a.cdf(self.axis),
-            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band ±{band:.3f}",
+            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band {half_width(band)}",
             band=band,
         )
         if not self.d.unreached:

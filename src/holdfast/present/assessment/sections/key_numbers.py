@@ -10,7 +10,7 @@ from holdfast.present.assessment.explanations import explain_index
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections import collisions
 from holdfast.report.page import Block, Table
-from holdfast.words import interval, number, percent
+from holdfast.words import half_width, interval, number, percent
 
 TITLE = "Key numbers"
 
@@ -48,7 +48,7 @@ def blocks(f: Facts) -> list[Block]:
         facts.append(
             (
                 "Error of the CDF",
-                f"at most ±{d.band():.3f} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)",
+                f"at most {half_width(d.band())} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)",
             )
         )
     if index.bound is not None and d.reached:
