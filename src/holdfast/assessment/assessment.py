@@ -13,19 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
+from holdfast.assessment import upgrade
 from holdfast.assessment.answer import ZERO, Answer
 from holdfast.assessment.plan import Plan, Rows
 from holdfast.assessment.rows import Collisions, provenance
-from holdfast.assessment.upgrade import (
-    Sample,
-    Upgrade,
-    distribution_without,
-    optimised_value_without,
-    sample,
-    upgrades,
-    value_without,
-)
-from holdfast.caching import cached_property
+from holdfast.assessment.upgrade import Sample, Upgrade, check_rates, sample
 from holdfast.engine.store import Store
 from holdfast.errors import InputError
 from holdfast.indices.index import Index
@@ -259,7 +251,7 @@ class Assessment(Result):
             InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
         """
         k, s = self.arm.joint_index(joint), self._sample(optimised)
-        return distribution_without(self.index, s, self._without(k, s, optimised))
+        return upgrade.distribution_without(self.index, s, self._without(k, s, optimised))
 
     @checked
     def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
@@ -277,7 +269,7 @@ class Assessment(Result):
         check_confidence(confidence)
         least = self.default_threshold() if threshold is None else threshold
         s = self._sample(optimised)
-        return upgrades(self.index, s, lambda k: self._without(k, s, optimised), least, confidence)
+        return upgrade.upgrades(self.index, s, lambda k: self._without(k, s, optimised), least, confidence)
 
     def _sample(self, optimised: bool) -> Sample:
         self.of(optimised)  # says so where the run was not optimised
@@ -286,15 +278,10 @@ class Assessment(Result):
 
     def _without(self, k: int, s: Sample, optimised: bool) -> Array:
         """Values (N,) of a sample if joint k, from 0, never failed; optimised ones are computed once."""
-        if not optimised:
-            return value_without(self.index, k, s)
-        if k not in self._optimised_without:
-            self._optimised_without[k] = optimised_value_without(self.plan, self.columns, k, s)
-        return self._optimised_without[k]
-
-    @cached_property
-    def _optimised_without(self) -> dict[int, Array]:
-        return {}
+        known: dict[int, Array] = self.__dict__.setdefault("_optimised_without", {})
+        if optimised and k not in known:
+            known[k] = upgrade.optimised_value_without(self.plan, self.columns, k, s)
+        return known[k] if optimised else upgrade.value_without(self.index, k, s)
 
     # ---- rows, files -----------------------------------------------------------------------------------------------
 
@@ -410,13 +397,3 @@ class Assessment(Result):
             StoreError: The file cannot be written.
         """
         return super().report(path, threshold)
-
-
-def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
-    """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
-    weights = np.zeros(arm.n)
-    for joint, rate in rates.items():
-        weights[arm.joint_index(joint)] = rate
-    if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
-        raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
-    return weights
