@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.assessment.plan import Plan
 from holdfast.errors import InputError
@@ -73,9 +74,8 @@ class Sample:
     @property
     def first(self) -> Sample:
         """The first 500 poses: those that are optimised again without each joint."""
-        return Sample(
-            **{f.name: None if (x := getattr(self, f.name)) is None else x[:MOST_OPTIMISED_AGAIN] for f in fields(self)}
-        )
+        kept: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
+        return Sample(**{name: None if x is None else x[:MOST_OPTIMISED_AGAIN] for name, x in kept.items()})
 
 
 def sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> Sample:
@@ -190,3 +190,13 @@ def upgrades(index: Index, s: Sample, without: Callable[[int], Array], threshold
 def _remaining(index: Index, k: int) -> list[int]:
     """Positions of the failures in which joint k, from 0, has no part."""
     return [i for i, failed in enumerate(index.failures) if k not in failed]
+
+
+def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
+    """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
+    weights = np.zeros(arm.n)
+    for joint, rate in rates.items():
+        weights[arm.joint_index(joint)] = rate
+    if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
+        raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
+    return weights
