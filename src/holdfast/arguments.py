@@ -11,7 +11,7 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError
+from holdfast.errors import HoldfastError, InputError
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -50,6 +50,7 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
 
     Raises:
         InputError: When the function is called with such an argument.
+        HoldfastError: When NumPy cannot factor a matrix within the function.
     """
     signature = inspect.signature(function)
     wanted = {name: _alternatives(str(parameter.annotation)) for name, parameter in signature.parameters.items()}
@@ -69,9 +70,17 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
             if kinds and not any(_is(value, kind) for kind in kinds):
                 what = f"{function.__qualname__.removesuffix('.__init__')}: {name} is {_shown(value)}"
                 raise InputError(f"{what}; it must be {' or '.join(dict.fromkeys(_said(kind) for kind in kinds))}")
-        return function(*args, **kwargs)
+        try:
+            return function(*args, **kwargs)
+        except np.linalg.LinAlgError as error:
+            raise HoldfastError(f"{function.__qualname__.removesuffix('.__init__')}: {broken_down(error)}") from error
 
     return called
+
+
+def broken_down(error: Exception) -> str:
+    """Say in one sentence that a matrix could not be factored."""
+    return f"a matrix could not be factored ({error}); a number of the arm or of the input is too large or too small"
 
 
 def checked_class(made: type[T]) -> type[T]:

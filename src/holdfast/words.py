@@ -89,6 +89,11 @@ def interval(p: Probability) -> str:
     return f"{p.value:.{digits}f} ({p.low:.{digits}f} to {p.high:.{digits}f}, {100 * p.confidence:.4g} %)"
 
 
+def half_width(half: float) -> str:
+    """Write half the width of a band as ``±0.031``, with at least two digits that are not 0."""
+    return f"±{half:.{int(np.clip(math.ceil(1 - math.log10(max(half, 1e-9))), 3, 9))}f}"
+
+
 def share(count: int, whole: int) -> str:
     """A count with its share of the whole and the exact 95 % interval of that."""
     if not whole:

@@ -41,10 +41,14 @@ def test_an_arm_in_millimetres() -> None:
 
 JOINTS: list[tuple[dict[str, Any], str]] = [
     ({"type": "continuous", "lower": -np.inf, "upper": np.inf}, "it is continuous; analyses over the whole joint range need"),
-    ({"upper": np.inf}, "it lacks a limit; analyses over the whole joint range need lower and upper, in rad"),
+    (
+        {"upper": np.inf},
+        "it lacks a limit (one beyond 100 turns counts as none); analyses over the whole joint range need lower and upper, in "
+        "rad",
+    ),
     (
         {"type": "prismatic", "lower": -np.inf},
-        "it lacks a limit; analyses over the whole joint range need lower and upper, in m",
+        "it lacks a limit (one beyond 1000 m counts as none); analyses over the whole joint range need lower and upper, in m",
     ),
     ({"lower": 1}, "its lower and upper limit are both 1 rad; a joint needs room to move"),
     ({"lower": -7, "upper": 7}, "its range is 14 rad; more than two turns (12.57 rad) is a placeholder on most arms"),

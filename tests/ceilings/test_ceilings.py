@@ -35,6 +35,23 @@ def test_every_size_is_stored_and_its_null_space_is_worth_what_is_said():
         assert c.verify() is c
 
 
+@pytest.mark.parametrize(("n", "m", "k"), [case for case in CASES if case[2] == case[0] - case[1]])
+def test_the_orthogonal_complement_of_a_stored_null_space_is_known_as_well(n, m, k):
+    """Theorem T3, by determinants: minors of k = n - m rows of N are those of the other m rows of its complement."""
+    stored, c = np.array(_stored()[n, m, k]), hf.ceilings.look_up(n=n, m=k, k=m)
+    assert c.null_space.shape == (n, m)
+    assert least(c.null_space, m) == pytest.approx(c.best_known, abs=1e-12)
+    assert c.best_known >= least(stored, k) * (1 - 1e-12)
+    assert c.attained == hf.ceilings.look_up(n=n, m=m, k=k).attained
+    assert c.verify() is c
+
+
+def test_seven_joints_three_rows_four_failures():
+    c = hf.ceilings.look_up(n=7, m=3, k=4)
+    assert c.best_known == pytest.approx(0.0867754, abs=5e-8)
+    assert c.attained
+
+
 def test_the_known_ceilings_are_attained():
     found = [f"{c.n},{c.m},{c.k}" for c in hf.ceilings.table().ceilings if c.attained]
     assert sorted(found) == sorted(KNOWN)

@@ -131,7 +131,7 @@ def test_it_is_the_library(ask, panda):
     q = np.radians([float(x) for x in HOME.split()])
     data = ask("optimise", "panda", "--at", HOME, "--degrees", "--minimise", "torque:effort", "--starts", 20, "--seed", 3)
     torque = sus.torque(panda, "effort")
-    expected = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20)
+    expected = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20, initial=q)
     (row,) = data["poses"]
     assert (data["arm"], data["task"], data["better"], data["before"]) == ("panda", "pose", "smaller", "given")
     assert list(row["q"]) == list(panda.joint_names)
@@ -277,3 +277,23 @@ def test_the_list_of_commands_names_what_is_needed(cli):
     _, out, _ = cli("--help")
     assert "(needs the extra 'physics')" in " ".join(out.replace("│", " ").split())
     assert "optimise" in out
+
+
+def test_failures_restrict_what_may_fail(ask, panda):
+    q = np.array([float(x) for x in IN_RADIANS.split()])
+    arguments = ["panda", "--at", IN_RADIANS, "--maximise", "relative-manipulability", "--failures", "1; 2; 3"]
+    said = ask("optimise", *arguments)
+    index = relative_manipulability(panda, failures=[[0], [1], [2]])
+    found = hf.optimise(panda, panda.forward_kinematics(q), index, initial=q, clearance=True)
+    assert said["failures"] == "1; 2; 3"
+    (row,) = said["poses"]
+    best = np.array(list(row["q"].values()))
+    assert row["value"] == pytest.approx(index(best))
+    assert row["value"] >= 0.9 * found.value
+    after = [row["measures"]["relative-manipulability"][name]["after"] for name in panda.joint_names]
+    np.testing.assert_allclose(after, relative_manipulability(panda).by_joint(best))
+
+
+def test_failures_of_a_torque_are_refused(refused):
+    words = refused("optimise", "panda", "--at", IN_RADIANS, "--minimise", "torque", "--failures", "1; 2")
+    assert "--failures is for an index, not for torque" in words

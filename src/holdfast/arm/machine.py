@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
+FARTHEST_LIMIT_RAD = 200 * np.pi
+FARTHEST_LIMIT_M = 1000.0
 _MOST = 1e12  # of any number, so that their products stay finite
 
 
@@ -33,7 +35,8 @@ class Joint:
         type: ``revolute``, ``continuous`` (revolute without limits) or ``prismatic``.
         origin: (4, 4) pose of the joint frame at q = 0 in the frame of the previous link (or base).
         axis: (3,) unit vector in the joint frame.
-        lower, upper: Position limits, rad or m; infinite where there are none.
+        lower, upper: Position limits, rad or m; infinite where there are none. A limit of more than 100 turns or 1 km stands
+            for none in many files, and becomes infinite.
         velocity: Largest speed, rad/s or m/s; infinite if not given.
         effort: Largest torque or force, N m or N; infinite if not given.
         friction: Viscous friction, N m s/rad or N s/m.
@@ -68,6 +71,11 @@ class Joint:
             if np.isnan(value) or (value < 0 and field_name not in ("lower", "upper")):
                 raise ArmError(f"{field_name} of joint '{self.name}' is {value:g}; it must be a number{sign}")
             object.__setattr__(self, field_name, value)
+        farthest = FARTHEST_LIMIT_M if self.prismatic else FARTHEST_LIMIT_RAD
+        for field_name in ("lower", "upper"):
+            value = getattr(self, field_name)
+            if abs(value) > farthest and self.lower <= self.upper:
+                object.__setattr__(self, field_name, float(np.copysign(np.inf, value)))
         if self.lower > self.upper:
             raise ArmError(
                 f"limits of joint '{self.name}' are reversed: lower {self.lower:g} is above upper {self.upper:g}; swap them"

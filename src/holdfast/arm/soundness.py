@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from holdfast.arm.machine import Joint, Link, Machine
+from holdfast.arm.machine import FARTHEST_LIMIT_M, FARTHEST_LIMIT_RAD, Joint, Link, Machine
 from holdfast.errors import ArmError
 
 LARGEST_EFFORT = 20_000.0  # N m or N; beyond any arm's joint, so a placeholder
@@ -100,7 +100,7 @@ def _joint(joint: Joint) -> list[Finding]:
     warnings = []
     width = joint.upper - joint.lower
     if not np.isfinite(width):
-        kind = "is continuous" if joint.type == "continuous" else "lacks a limit"
+        kind = "is continuous" if joint.type == "continuous" else _limit_count(joint)
         warnings.append(f"it {kind}; analyses over the whole joint range need lower and upper, in {joint.unit}")
     elif width == 0:
         warnings.append(f"its lower and upper limit are both {joint.lower:g} {joint.unit}; a joint needs room to move")
@@ -120,6 +120,13 @@ def _joint(joint: Joint) -> list[Finding]:
             f"its largest effort is {joint.effort:g} {push}; it should be above 0 and below {LARGEST_EFFORT:g} {push}"
         )
     return [Finding("warning", subject, message) for message in warnings]
+
+
+def _limit_count(joint: Joint) -> str:
+    """Describe the limits that a joint lacks although its type has them."""
+    lacking = "has no limits" if np.isinf([joint.lower, joint.upper]).all() else "lacks a limit"
+    farthest = f"{FARTHEST_LIMIT_M:g} m" if joint.prismatic else f"{FARTHEST_LIMIT_RAD / (2 * np.pi):g} turns"
+    return f"{lacking} (one beyond {farthest} counts as none)"
 
 
 def _link(link: Link | None, joint: Joint) -> list[Finding]:

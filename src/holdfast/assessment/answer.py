@@ -121,22 +121,24 @@ class Answer:
         if self.nothing:
             worst = "0" if self.larger else "infinite"
             verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
-            return f"No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
+            return f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
         bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
+        if self.larger and self.index.bound is not None:
+            bound += f" ({percent(self.threshold / self.index.bound)} of the largest possible value)"
         kept = f"keeps {article(name)} {name} of {bound} {self.failures}"
         chance = f"probability {interval(self.answer)}"
         if self.answer.value >= EMPTY:
-            return f"With {chance} a {noun} of the region {kept}{lost}."
+            return f"{self.remaining_reach}With {chance} a {noun} of the region {kept}{lost}."
         few = f"Hardly any {noun} of the region" if self.answer.value else f"None of the {d.samples:,} {noun}s drawn"
-        return f"{few} {kept}: {chance}{lost}. {self.why}"
+        return f"{self.remaining_reach}{few} {kept}: {chance}{lost}. {self.why}"
 
-    @cached_property
-    def why(self) -> str:
-        """Why the answer is nothing, joint or structure, and the next informative numbers."""
+    @property
+    def remaining_reach(self) -> str:
+        """The reach after the lock that costs most, as a sentence with a space behind it; empty if the run did not ask."""
         if self.costliest is None:
-            return self._cause
+            return ""
         name, left = self.costliest
-        return f"{self._cause} Once {name} has locked, {percent(left)} of the poses are still reached."
+        return f"Once {name} has locked, {percent(left)} of the poses of the region are still reached. "
 
     @cached_property
     def costliest(self) -> tuple[str, float] | None:
@@ -147,7 +149,8 @@ class Answer:
         return min(left.items(), key=lambda each: each[1])
 
     @property
-    def _cause(self) -> str:
+    def why(self) -> str:
+        """Why the answer is nothing, joint or structure, and the next informative numbers."""
         a, index, names = self.a, self.index, self.a.plan.arm.joint_names
         own = self.structures[0]
         ends = [k for k in own.fatal if any(k in s for s in index.failures)]

@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
+from holdfast.assessment import upgrade
 from holdfast.assessment.answer import ZERO, Answer
 from holdfast.assessment.plan import Plan, Rows
 from holdfast.assessment.rows import Collisions, provenance
-from holdfast.assessment.upgrade import Sample, Upgrade, if_never_fails, sample, upgrades
+from holdfast.assessment.upgrade import Sample, Upgrade, check_rates, sample
 from holdfast.engine.store import Store
 from holdfast.errors import InputError
 from holdfast.indices.index import Index
@@ -239,27 +240,27 @@ class Assessment(Result):
 
     @checked
     def if_never_fails(self, joint: str | int, optimised: bool = False) -> Distribution:
-        """The distribution if one joint could never fail, at the same configurations.
-
-        It is the worst case over the remaining failures. Configurations are not chosen again: of the optimised sample it is
-        what those chosen for all failures keep, a lower bound.
+        """Compute the distribution if one joint could never fail: the worst case over the remaining failures.
 
         Args:
             joint: Name or index from 0.
-            optimised: At the best configurations instead of those that inverse kinematics found.
+            optimised: At configurations optimised again for the remaining failures, of at most the first 500 poses, instead
+                of those that inverse kinematics found.
 
         Raises:
             InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
         """
-        return if_never_fails(self.index, self.arm.joint_index(joint), self._sample(optimised))
+        k, s = self.arm.joint_index(joint), self._sample(optimised)
+        return upgrade.distribution_without(self.index, s, self._without(k, s, optimised))
 
     @checked
     def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
-        """Which joint deserves a redundant motor or brake: what each would gain if it could never fail, the largest first.
+        """Rank the joints by what a redundant motor or brake, with which the joint could never fail, would gain.
 
         Args:
             threshold: Value of the index that the task needs; :meth:`default_threshold` if not given.
-            optimised: At the best configurations instead of those that inverse kinematics found.
+            optimised: At the best configurations, optimised again without each joint, of at most the first 500 poses, instead
+                of those that inverse kinematics found.
             confidence: Of the intervals.
 
         Raises:
@@ -267,11 +268,20 @@ class Assessment(Result):
         """
         check_confidence(confidence)
         least = self.default_threshold() if threshold is None else threshold
-        return upgrades(self.index, self.of(optimised), self._sample(optimised), least, confidence)
+        s = self._sample(optimised)
+        return upgrade.upgrades(self.index, s, lambda k: self._without(k, s, optimised), least, confidence)
 
     def _sample(self, optimised: bool) -> Sample:
         self.of(optimised)  # says so where the run was not optimised
-        return sample(self.index, self.columns, optimised)
+        s = sample(self.index, self.columns, optimised)
+        return s.first if optimised else s
+
+    def _without(self, k: int, s: Sample, optimised: bool) -> Array:
+        """Values (N,) of a sample if joint k, from 0, never failed; optimised ones are computed once."""
+        known: dict[int, Array] = self.__dict__.setdefault("_optimised_without", {})
+        if optimised and k not in known:
+            known[k] = upgrade.optimised_value_without(self.plan, self.columns, k, s)
+        return known[k] if optimised else upgrade.value_without(self.index, k, s)
 
     # ---- rows, files -----------------------------------------------------------------------------------------------
 
@@ -387,13 +397,3 @@ class Assessment(Result):
             StoreError: The file cannot be written.
         """
         return super().report(path, threshold)
-
-
-def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
-    """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
-    weights = np.zeros(arm.n)
-    for joint, rate in rates.items():
-        weights[arm.joint_index(joint)] = rate
-    if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
-        raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
-    return weights

@@ -13,8 +13,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.errors import TaskError
 from holdfast.grammar import TASKS
-from holdfast.indices.determinants import RelativeManipulability
-from holdfast.words import either, number
+from holdfast.indices.determinants import Manipulability, RelativeManipulability
+from holdfast.words import either, number, percent
 
 Array = NDArray[np.float64]
 
@@ -22,12 +22,35 @@ _DRAWS = 256
 _MOST, _NAMED = 3, 4  # joints of a set, and sets that are named
 _FLAT = 1e-10  # rho^2 of several joints is rounding noise, or that of 1.5708 for pi/2 in a file
 _ZERO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
+WEAK_FRACTION = 0.03  # of the best manipulability: below it the lock of a joint all but ends a task
+_NEAR_POINT_M = 0.05  # axes that miss a common point by more do not nearly meet
 _LITTLE = 0.01  # rho that is left where axes meet but for half a millimetre, or for the digits of pi/2 in a file
 
 
 @dataclass(frozen=True, kw_only=True)
+class WeakJoint:
+    """A joint whose lock leaves little of the manipulability of a task in every configuration.
+
+    Attributes:
+        joint: Index from 0.
+        manipulability_left: Largest manipulability found once the joint has locked, as a fraction of the largest one found
+            of the healthy arm.
+        best: Largest relative manipulability found after the worst single failure, which is compared with the bound.
+        bound: The value no configuration can exceed.
+        axis_distance: Distance in metres by which the three axes before or after the joint miss a common point, the larger
+            of both; None where they are not three, not revolute, or do not nearly meet.
+    """
+
+    joint: int
+    manipulability_left: float
+    best: float
+    bound: float
+    axis_distance: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Structure:
-    """What locking each joint does to a task whatever the configuration.
+    """The effect of locking each joint on a task whatever the configuration.
 
     Attributes:
         task: Name of the task.
@@ -38,6 +61,8 @@ class Structure:
             leave as many joints as the task has rows.
         nearly: Joints, indices from 0, whose lock leaves almost nothing, and the most of it that was found, above 0 and
             at most 0.01: axes that would meet but for the rounding or the calibration in the arm's file.
+        weak: Joints whose lock leaves at most 3 % of the best manipulability; they are no single points of failure by
+            structure, but nearly.
     """
 
     task: str
@@ -46,6 +71,7 @@ class Structure:
     never: bool
     together: tuple[tuple[int, ...], ...] = ()
     nearly: tuple[tuple[int, float], ...] = ()
+    weak: tuple[WeakJoint, ...] = ()
 
     @property
     def survives(self) -> bool:
@@ -73,7 +99,54 @@ def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
     nearly = tuple((int(k), float(most[k])) for k in np.flatnonzero((most >= _ZERO) & (most <= _LITTLE)))
     never = bool((result.value == 0).all() and (result.by_failure == 0).all())
     together = () if never else _together(index.task_jacobian(q), fatal)
-    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never, together=together, nearly=nearly)
+    weak = () if never or fatal or nearly else _weak_joints(arm, t, q, result.by_failure, index.bound or 1.0)
+    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never, together=together, nearly=nearly, weak=weak)
+
+
+def _weak_joints(arm: Arm, task: Task, q: Array, by_failure: Array, bound: float) -> tuple[WeakJoint, ...]:
+    """Find the joints after whose lock the largest manipulability at q (N, n) is at most 3 % of the healthy one."""
+    after_lock = Manipulability(arm, task).by_joint(q)
+    healthy = np.divide(after_lock, by_failure, out=np.zeros_like(after_lock), where=by_failure > 0).max()
+    left = after_lock.max(axis=0) / (healthy or 1.0)
+    best = float(by_failure.min(axis=1).max())
+    return tuple(
+        WeakJoint(
+            joint=int(k),
+            manipulability_left=float(left[k]),
+            best=best,
+            bound=bound,
+            axis_distance=_distance_from_common_points(arm, int(k)),
+        )
+        for k in np.flatnonzero(left <= WEAK_FRACTION)
+    )
+
+
+def _distance_from_common_points(arm: Arm, joint: int) -> float | None:
+    """Measure how far the three axes before and the three after a joint are from meeting in a point each, in metres."""
+    groups = [range(joint - 3, joint), range(joint + 1, joint + 4)]
+    if joint < 3 or joint + 3 >= arm.n or arm.prismatic[[k for group in groups for k in group]].any():
+        return None
+    frames = arm.frames(np.full(arm.n, 0.5))[1:-1]  # the distances of neighbouring axes are the same at every configuration
+    axes = [frames[k][:3, :3] @ each.axis for k, each in enumerate(arm.joints)]
+    most = 0.0
+    for group in groups:
+        near = [_nearest_points(frames[k][:3, 3], axes[k], frames[k + 1][:3, 3], axes[k + 1]) for k in group[:2]]
+        if any(pair is None for pair in near):
+            return None
+        (first, on_middle), (again_on_middle, last) = (pair for pair in near if pair is not None)
+        gaps = (first - on_middle, again_on_middle - on_middle, last - again_on_middle)
+        most = max(most, *(float(np.linalg.norm(gap)) for gap in gaps))
+    return most if most <= _NEAR_POINT_M else None
+
+
+def _nearest_points(p: Array, u: Array, r: Array, v: Array) -> tuple[Array, Array] | None:
+    """Find the nearest points of the lines p + s u and r + t v, unit vectors u and v; None for parallel lines."""
+    across = float(u @ v)
+    if 1 - across**2 < _FLAT:
+        return None
+    gap = r - p
+    s, t = np.linalg.solve([[1.0, -across], [across, -1.0]], [u @ gap, v @ gap])
+    return p + s * u, r + t * v
 
 
 def _together(jacobians: Array, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
@@ -105,12 +178,14 @@ def structures(arm: Arm) -> list[Structure]:
 
 def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
     """One or two sentences for people about one task, with the tasks that do survive."""
-    survivors = [s.task for s in others if s.survives and s.task != found.task]
+    survivors = [s.task for s in others if s.survives and not s.weak and s.task != found.task]
     instead = f" A task that every single lock leaves possible: {', '.join(survivors)}." if survivors else ""
     if found.never:
         return f"'{arm.name}' can never do task '{found.task}': it is singular in every configuration.{instead}"
     if found.redundancy <= 0:
         return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
+    if found.weak:
+        return " ".join(_describe_weak(arm, found, each) for each in found.weak) + instead
     if not found.fatal and not found.nearly:
         sets = [" + ".join(arm.joint_names[k] for k in s) for s in found.together]
         more = f" and {len(sets) - _NAMED} more" if len(sets) > _NAMED else ""
@@ -128,6 +203,21 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
             f"{number(left)} of its manipulability for task '{found.task}' left, at each of {_DRAWS} random configurations."
         )
     return " ".join(parts) + instead
+
+
+def _describe_weak(arm: Arm, found: Structure, weak: WeakJoint) -> str:
+    text = (
+        f"No joint of '{arm.name}' is exactly a single point of failure for task '{found.task}', but "
+        f"{_either(arm, [weak.joint])} nearly is: its lock leaves at most {percent(weak.manipulability_left)} of the best "
+        f"manipulability, and at {_DRAWS} random configurations the best relative manipulability after the worst lock is "
+        f"{number(weak.best)} of at most {number(weak.bound)}."
+    )
+    if weak.axis_distance is not None:
+        text += (
+            f" The three axes before the joint, or the three after it, miss a common point by "
+            f"{1000 * weak.axis_distance:.2g} mm."
+        )
+    return text
 
 
 def _either(arm: Arm, joints: Sequence[int]) -> str:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.ceilings.closed_forms import CLOSED_FORMS
-from holdfast.ceilings.frames import known
+from holdfast.ceilings.frames import complement, known
 from holdfast.ceilings.minor_programmes import bounds_by_arrangement
 from holdfast.ceilings.minors import lack_of_orthonormality, worst_case
 from holdfast.ceilings.pair_kernels import certificates
@@ -98,7 +98,8 @@ class Ceiling(Result):
     @property
     def closed_form(self) -> str:
         """What the best known value is in roots, where that was recognised; identified by its digits unless a T proves it."""
-        return CLOSED_FORMS.get((self.n, self.m, self.k), "")
+        own, complementary = ((self.n, *pair) for pair in ((self.m, self.k), (self.k, self.m)))
+        return CLOSED_FORMS.get(own) or (CLOSED_FORMS.get(complementary, "") if self.k == self.n - self.m else "")
 
     @property
     def gap(self) -> float | None:
@@ -255,6 +256,15 @@ def _stored() -> dict[tuple[int, int, int], list[list[float]]]:
 
 
 def _best_null_space(n: int, m: int, k: int) -> Array | None:
+    """Find the best null space known, by theorem T3 also the complement of the one for n - m rows and m failures."""
+    candidates = [_own_null_space(n, m, k)]
+    if k == n - m:
+        other = _own_null_space(n, k, m)
+        candidates.append(None if other is None else complement(other))
+    return max((x for x in candidates if x is not None), key=lambda x: worst_case(x, k), default=None)
+
+
+def _own_null_space(n: int, m: int, k: int) -> Array | None:
     given = known(n, m, k)
     if given is not None:
         return given

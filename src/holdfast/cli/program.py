@@ -139,6 +139,12 @@ def main() -> None:
         _fail(message + hint)
     except (KeyboardInterrupt, typer.Abort):
         _stopped()
+    except ValueError as error:
+        if type(error).__name__ != "LinAlgError":  # known by name, so that numpy is not imported for every command
+            raise
+        from holdfast.arguments import broken_down
+
+        _fail(broken_down(error))
     except MemoryError as error:
         _fail(f"there is not enough memory ({error}); ask for less at once")
     except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from holdfast.arm.machine import Joint
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
-    from holdfast.failures import Degraded
+    from holdfast.failures import Degraded, FailureSpec
     from holdfast.indices.objective import Objective
     from holdfast.paths import Path as ToolPath
 
@@ -150,7 +150,7 @@ def read_weights(option: str, text: str) -> Any:
     return table.ravel() if 1 in table.shape else table
 
 
-def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Objective:
+def read_objective(arm: Arm, option: str, text: str, task: str | Task, failures: FailureSpec = "single") -> Objective:
     """--minimise or --maximise as the library takes it: ``0.5*torque:effort + 0.1*acceleration``.
 
     A summand is the label of an index or a susceptibility; of this, after the colon may also be the one joint that counts.
@@ -167,7 +167,7 @@ def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Object
                 "'0.5*torque:effort + 0.1*acceleration'"
             )
         factor = float(found["factor"] or 1) * (-1 if found["sign"] == "-" else 1)
-        summands.append((factor, _summand(arm, option, found["name"], found["weights"], task)))
+        summands.append((factor, _summand(arm, option, found["name"], found["weights"], task, failures)))
         at = found.end()
     plain = len(summands) == 1 and summands[0][0] == 1
     objective = summands[0][1] if plain else WeightedSum(summands)
@@ -181,15 +181,19 @@ _SUMMAND = re.compile(
 )
 
 
-def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task) -> Objective:
+def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task, failures: FailureSpec) -> Objective:
     from holdfast.registry import INDICES, SUSCEPTIBILITIES, unknown
 
     found: Objective
     if name in SUSCEPTIBILITIES:
+        if failures != "single":
+            raise InputError(
+                f"--failures is for an index, not for {name}; give one joint as {name}:joint2, or leave --failures out"
+            )
         given = {} if weights is None else {"weights": _joint_weights(arm, option, name, weights)}
         found = SUSCEPTIBILITIES.make(name, arm, option=option, **given)
     elif name in INDICES:
-        found = INDICES.make(name if weights is None else f"{name}:{weights}", arm, option=option, task=task)
+        found = INDICES.make(name if weights is None else f"{name}:{weights}", arm, option=option, task=task, failures=failures)
     else:
         raise InputError(f"{option}: {unknown('objective', name, SUSCEPTIBILITIES, INDICES)}")
     return found

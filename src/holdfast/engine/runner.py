@@ -34,7 +34,7 @@ class Result:
     Attributes:
         task: The task.
         columns: Its values, or None if the job refused.
-        seconds: Time it took where it was computed.
+        seconds: Processor time of the thread that computed it.
         made: Versions and processor.
         problem: Why the job refused.
     """
@@ -59,15 +59,15 @@ class Runner(Protocol):
 
 def compute(task: Task, alone: bool = True) -> Result:
     """Carry out a task in this thread."""
-    begin = time.perf_counter()
+    begin = time.thread_time()
     try:
         task.job.prepare(alone)
-        begin = time.perf_counter()
+        begin = time.thread_time()
         with working("a chunk", told):  # who runs the study tells of it
             columns = task.job.run(task.chunk)
     except HoldfastError as error:
-        return Result(task=task, columns=None, seconds=time.perf_counter() - begin, made=machine(), problem=error)
-    return Result(task=task, columns=columns, seconds=time.perf_counter() - begin, made=machine())
+        return Result(task=task, columns=None, seconds=time.thread_time() - begin, made=machine(), problem=error)
+    return Result(task=task, columns=columns, seconds=time.thread_time() - begin, made=machine())
 
 
 class Threads:

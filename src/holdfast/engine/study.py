@@ -266,7 +266,7 @@ class Study(Result):
         done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
         word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
         spent = duration(sum(s.seconds for s in cells))
-        return [f"{self.name} ({self.path}): {done:,} of {total:,} chunks, {word}, {spent} of one thread"]
+        return [f"{self.name} ({self.path}): {done:,} of {total:,} chunks, {word}, {spent} of processor time to compute"]
 
     # ---- computing -------------------------------------------------------------------------------------------------
 

@@ -140,6 +140,19 @@ class CustomIndex(FormulaIndex):
         """See :meth:`FormulaIndex.formula`."""
         return self._value(j, ca.SX.zeros(0), ())
 
+    def with_failures(self, failures: FailureSpec) -> CustomIndex:
+        """See :meth:`Index.with_failures`."""
+        return CustomIndex(
+            self._formula,
+            self.arm,
+            self.task,
+            failures=failures,
+            name=self.name,
+            better=self.better,
+            unit=self.unit,
+            bound=self.bound,
+        )
+
     def _value(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
         arguments = (j, q, list(joints)) if _takes_joints(self._formula) else (j,)
         try:

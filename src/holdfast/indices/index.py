@@ -254,6 +254,14 @@ class Index(Labelled, Objective):
         """The task of the index."""
         return self.task
 
+    def with_failures(self, failures: FailureSpec) -> Index:
+        """Build the same index over other failures.
+
+        Raises:
+            InputError: The index is of a class of one's own.
+        """
+        return by_name(INDICES.label(self), self.arm, self.task, failures=failures)
+
     # ---- shared machinery --------------------------------------------------------------------------------------
 
     @cached_property

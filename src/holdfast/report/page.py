@@ -41,7 +41,7 @@ class Callout:
     """A paragraph that must not be missed."""
 
     text: Cell
-    tone: Literal["bad", "good", "note"] = "note"
+    tone: Literal["bad", "warn", "good", "note"] = "note"
     title: str = ""
     kind: ClassVar[str] = "callout"
 

@@ -405,6 +405,18 @@ class InverseKinematics:
         status[~finite] = Status.BAD_INPUT
         return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)
 
+    def prefer(self, reach: Reach, q: Array, poses: Array, tolerance: float) -> Reach:
+        """Replace the configurations of a result by those of q (N, n) that meet their poses (N, 4, 4) within the limits."""
+        position_error, rotation_error = self.errors(q, poses)
+        kept = self._reached(q, position_error, rotation_error, tolerance)
+        return Reach(
+            q=np.where(kept[:, None], q, reach.q),
+            status=np.where(kept, np.uint8(Status.OK), reach.status),
+            position_error=np.where(kept, position_error, reach.position_error),
+            rotation_error=np.where(kept, rotation_error, reach.rotation_error),
+            restarts=reach.restarts,
+        )
+
 
 def damped_step(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX] | None = None) -> tuple[SX, SX]:
     """The next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error.

@@ -14,8 +14,10 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.caching import cached_property
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.errors import HoldfastError, InputError
+from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.notice import Count, says
@@ -31,7 +33,39 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_LITTLE = 0.1  # of a loss, and of the value that is lost
+_ZERO = 1e-9  # of an index after a failure that ends the task: rounding
 _BLOCK = 512  # poses worked on together by one thread; no result depends on it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cap:
+    """A failure that limits the optimised worst case, so that the other failures lose much for almost no gain.
+
+    Values are medians over the poses, of the index before and after optimisation.
+
+    Attributes:
+        failure: Name of the joint, or joints, whose failure is the worst one after optimisation.
+        before, after: Value after this failure.
+        other: Name of the failure that loses most.
+        other_before, other_after: Value after that failure.
+        remaining: Positions in ``index.failures`` of all failures but the first one.
+    """
+
+    failure: str
+    before: float
+    after: float
+    other: str
+    other_before: float
+    other_after: float
+    remaining: tuple[int, ...]
+
+    def __str__(self) -> str:
+        return (
+            f"{self.failure} caps the value: after its failure the index is {number(self.before)} before optimisation and "
+            f"{number(self.after)} after it, while after a failure of {self.other} it is {number(self.other_before)} "
+            f"before and {number(self.other_after)} after"
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -107,6 +141,42 @@ class Optima(Optimum, Result):
         better = lost > 1e-9 * np.abs(self.value)
         return np.asarray(better & ~self.close(self.before))
 
+    @cached_property
+    def cap(self) -> Cap | None:
+        """The failure that caps the value; None if the gain is worth the loss of the others, or there is one failure only.
+
+        A failure caps the value if it is the worst one at half of the best configurations or more, and either nothing is left
+        after it, or the value gains at most a tenth of the largest loss after another failure.
+        """
+        index, rows = self.objective, self.rows
+        if not isinstance(index, Index) or len(index.failures) < 2 or not rows.success.any():
+            return None
+        before, after = (index.by_joint(q[rows.success]) for q in (rows.before, rows.q))
+        if not (np.isfinite(before) & np.isfinite(after)).all():
+            return None
+        sign = 1.0 if index.better == "larger" else -1.0
+        lowest = (sign * after).min(axis=1, keepdims=True)
+        tied = sign * after <= lowest + 1e-3 * np.abs(lowest)
+        worst = np.where(tied, sign * before, np.inf).argmin(axis=1)  # of several, the one that was worst before
+        k = int(np.bincount(worst).argmax())
+        old, new = np.median(before, axis=0), np.median(after, axis=0)
+        losses = sign * (old - new)
+        losses[k] = -np.inf
+        loser, gain = int(losses.argmax()), float(np.median(lowest[:, 0] - (sign * before).min(axis=1)))
+        hopeless = abs(new[k]) <= _ZERO and losses[loser] > 0
+        costly = losses[loser] > _LITTLE * abs(old[loser]) and gain <= _LITTLE * losses[loser]
+        if 2 * (worst == k).sum() < len(worst) or not (hopeless or costly):
+            return None
+        return Cap(
+            failure=index.failure_names[k],
+            before=float(old[k]),
+            after=float(new[k]),
+            other=index.failure_names[loser],
+            other_before=float(old[loser]),
+            other_after=float(new[loser]),
+            remaining=tuple(i for i in range(len(index.failures)) if i != k),
+        )
+
     def describe(self) -> list[str]:
         """Where the best configurations bring the objective; of several poses the median of those reached."""
         some, unit = np.atleast_1d(self.success), "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
@@ -114,7 +184,8 @@ class Optima(Optimum, Result):
         before, after = (f"{number(float(np.median(x)))}{unit}" if x.size else "none" for x in values)
         what = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"
         reached = f"{counted(int(some.sum()), 'pose')} of {some.size} reached, " if some.size > 1 else ""
-        return [f"{what}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
+        said = [f"{what}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
+        return said if self.cap is None else [*said, f"{self.cap}; optimise over the other failures alone."]
 
     def require_any(self) -> Optima:
         """Itself, unless no pose has a configuration.
@@ -181,12 +252,12 @@ def optimise(
         cell: Objects around the arm, or their file, to keep clear of; the links are then kept apart as well, but for an arm
             that moves in a plane and with ``clearance=False``.
         margin: Smallest clearance, m; from an object beyond what the cell keeps from it.
-        initial: (n,) or (N, n), rad and m: configurations that the arm has at these poses, to compare with; they change no
-            result. Default: the first that inverse kinematics finds.
+        initial: (n,) or (N, n), rad and m: configurations to compare with. One that meets its pose within the limits is
+            also the first start of that pose. Default: the first that inverse kinematics finds.
 
     Returns:
-        :class:`Optima`. Their value is never worse than that of the first configuration found, unless that one runs the
-        arm through itself or an object.
+        :class:`Optima`. Their value is never worse than that of the first configuration found or given, unless that one
+        runs the arm through itself or an object.
 
     Raises:
         InputError: Poses that are not 4x4 transforms, options out of range, an objective or clearance of another arm, or a
@@ -224,6 +295,8 @@ def optimise(
         if free:
             return best_of_all(ascent, first, most)
         reach = ascent.engine.solve(part, first, restarts, within)
+        if given is not None:
+            reach = ascent.engine.prefer(reach, np.atleast_2d(given)[blocks[number]], part, within)
         found = ascent.solve(part, reach, others, most, within)
         tell(len(part))
         return found

@@ -11,8 +11,8 @@ import typer
 
 from holdfast.cli.groups import Apart, Chain, Placement
 from holdfast.cli.measure_options import OBJECTIVES
-from holdfast.cli.options import ArmArgument, JsonOption, OutOption, TaskOption
-from holdfast.cli.values import check_unit_of_places, read_configuration, read_objective, read_pose, read_task
+from holdfast.cli.options import ArmArgument, FailuresOption, JsonOption, OutOption, TaskOption
+from holdfast.cli.values import check_unit_of_places, read_configuration, read_failures, read_objective, read_pose, read_task
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed
 
@@ -44,6 +44,7 @@ def command(
     anywhere: Annotated[bool, "Whatever the pose: the best configuration of all within the limits."] = False,
     degrees: Annotated[bool, "--at is in degrees (prismatic joints stay in m)."] = False,
     task: TaskOption = None,
+    failures: FailuresOption = "single",
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     starts: Annotated[
         int | None, "Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere."
@@ -68,7 +69,7 @@ def command(
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
-    objective = read_objective(model, *wish, chosen)
+    objective = read_objective(model, *wish, chosen, read_failures(model, failures))
     if [pose is not None, poses is not None, at is not None, anywhere].count(True) != 1:
         raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv, --at "joint values" and --anywhere')
     given = None if at is None else np.array([read_configuration(model, x, degrees, "--at") for x in at])

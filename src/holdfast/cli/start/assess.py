@@ -117,7 +117,7 @@ def command(
     for c, (measure, options) in zip(candidates, asked, strict=True):
         if not json_:
             found = structure(c.arm, measure.task)
-            if not found.survives:
+            if not found.survives or found.weak:
                 console(stderr=True).print(explain(c.arm, found, structures(c.arm)), markup=False, soft_wrap=True)
         store = out / c.name if out is not None and several else out
         with progress_bar(json_, c.name if several else "poses") as progress:
@@ -168,7 +168,7 @@ def _printed(result: Result, json_: bool, files: list[Path], **options: Any) -> 
 
 def _read_rates(arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock: list[str] | None) -> dict[str | int, float]:
     """--failure-rate, each of a joint whose lock is asked for."""
-    from holdfast.assessment.assessment import check_rates
+    from holdfast.assessment.upgrade import check_rates
 
     rates = read_by_joint(arm, failure_rate, "--failure-rate")
     locks = read_by_joint(arm, lock, "--lock") if rates else {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,6 +45,7 @@ def to_dict(arm: Arm) -> dict[str, Any]:
                 "redundancy": s.redundancy,
                 "single_points_of_failure": [arm.joint_names[k] for k in s.fatal],
                 "at_most_left": {arm.joint_names[k]: left for k, left in s.nearly},
+                "weak_joints": {arm.joint_names[w.joint]: asdict(w) for w in s.weak},
                 "end_it_together": [[arm.joint_names[k] for k in sets] for sets in s.together],
                 "always_singular": s.never,
             }
@@ -112,7 +114,7 @@ def show(arm: Arm, out: Console) -> None:
     out.print()
     found = structures(arm)
     for s in found:
-        style = "green" if s.survives else "yellow"
+        style = "green" if s.survives and not s.weak else "yellow"
         label = f"{s.task}: " + (f"degree of redundancy {s.redundancy}. " if s.redundancy > 0 else "")
         out.print(f"[{style}]{label}[/]{escape(explain(arm, s, found))}", soft_wrap=True)
     # The same remark about every joint is one line.

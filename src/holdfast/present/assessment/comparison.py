@@ -15,8 +15,10 @@ from holdfast.arm.model import Arm
 from holdfast.arms.tool import attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
+from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
 from holdfast.notice import says
 from holdfast.present.assessment import thresholds
+from holdfast.present.assessment.console import best_upgrades
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections.upgrades import paired
 from holdfast.present.clearance.shape import cell_text
@@ -25,7 +27,7 @@ from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import article, as_given, counted, fixed, interval, number, percent
+from holdfast.words import article, as_given, counted, fixed, half_width, interval, number, percent
 
 _MOST_UPGRADES = 3  # joints per candidate; its own report has all
 
@@ -248,7 +250,7 @@ def _distributions(c: Comparison, f: Facts) -> list[Block]:
     if any(a.distribution.unreached for a in c.assessments):
         text += f"A pose without a configuration counts as {'0' if f.larger else 'infinite'}. "
     width = max(a.distribution.band() for a in c.assessments)
-    text += f"The 95 % band of each curve is ±{width:.3f}."
+    text += f"The 95 % band of each curve is {half_width(width)}."
     picture = Picture(drawing.svg(drawn["compare"], "compare", "Cumulative distributions of all candidates"), text)
     return [picture, _asked(c, f, drawn["compare"], width)]
 
@@ -260,7 +262,7 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
     optimised = any(a.optimised is not None for a in c.assessments)
     for name, a in zip(c.names, c.assessments, strict=True):
         ranked = c.upgrades(name) if a.kept else []
-        best = {u.joint: u for u in c.upgrades(name, optimised=True)} if a.kept and a.optimised is not None else {}
+        best = {u.joint: u for u in best_upgrades(a, c.threshold)} if a.kept else {}
         for place, u in enumerate(ranked[:_MOST_UPGRADES]):
             row: list[Cell] = ["" if place else name, u.joint, f"{u.before:.3f}", f"{u.after:.3f}", paired(u)]
             if optimised:
@@ -277,6 +279,8 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
             f"failures in which it has no part, at the same {f.noun}s and configurations. The intervals are paired: a gain is "
             f"the fraction of the {f.noun}s that fail now and would not then."
         )
+        if optimised:
+            text += f" After optimisation: configurations of up to {MOST_OPTIMISED_AGAIN} {f.noun}s optimised again without it."
         blocks.append(Text(text, quiet=True))
     if missing:
         blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so they are not in this table."))

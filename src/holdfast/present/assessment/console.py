@@ -8,8 +8,15 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from holdfast.assessment.answer import ZERO, Answer
+from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
+from holdfast.errors import InputError
+from holdfast.present.assessment.explanations import explain_index
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, plain
+from holdfast.words import counted
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -19,6 +26,7 @@ if TYPE_CHECKING:
     from holdfast.probability.distribution import Distribution
 
 Thresholds = Sequence[float] | None
+_USUAL_THRESHOLDS = (0.05, 0.1, 0.2, 0.3)  # of an index with a bound
 
 
 def key_table(result: Assessment) -> Rows:
@@ -151,7 +159,16 @@ def _upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = Fals
     if not result.kept or not result.distribution.samples:
         return None
     threshold = thresholds[0] if thresholds else result.default_threshold()
-    return {"threshold": threshold, "joints": [asdict(u) for u in result.upgrades(threshold, optimised)]}
+    found = best_upgrades(result, threshold) if optimised else result.upgrades(threshold)
+    return {"threshold": threshold, "joints": [asdict(u) for u in found]}
+
+
+def best_upgrades(result: Assessment, threshold: float) -> list[Upgrade]:
+    """Gains at configurations optimised again without each joint; none where the run or its index does not allow that."""
+    try:
+        return [] if result.optimised is None else result.upgrades(threshold, optimised=True)
+    except InputError:  # an index of a class of the user's own cannot be built again for fewer failures
+        return []
 
 
 def _after_lock(result: Assessment) -> dict[str, Any] | None:
@@ -167,11 +184,14 @@ def _after_lock(result: Assessment) -> dict[str, Any] | None:
 def _thresholds(result: Assessment, given: Thresholds) -> Sequence[float]:
     if given:
         return given
+    samples = [d for d in (result.distribution, result.optimised) if d is not None and d.reached]
+    highest = max((d.highest for d in samples), default=np.inf)
     if result.index.bound is not None:
-        return [h for h in (0.05, 0.1, 0.2, 0.3) if h < result.index.bound]
-    if not result.distribution.reached:
-        return []
-    return [float(f"{x:.3g}") for x in result.distribution.quantile([0.25, 0.5, 0.75]).tolist()]
+        usual = [h for h in _USUAL_THRESHOLDS if h < result.index.bound]
+        some = [h for h in usual if h <= highest]
+        if len(some) > 1 or highest <= ZERO or not samples:
+            return some or usual
+    return sorted({float(f"{x:.3g}") for d in samples for x in d.quantile([0.25, 0.5, 0.75]).tolist()})
 
 
 def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[str, Any]:
@@ -194,7 +214,12 @@ def show(
 
     del report  # is named with the files that were written
     d = result.distribution
-    out.print(f"[bold]{escape(result.arm.title)}[/]: {escape(result.index.describe())}", soft_wrap=True)
+    if d.samples:
+        out.print(f"[bold]{escape(Answer(result, thresholds[0] if thresholds else None).headline)}[/]", soft_wrap=True)
+    out.print(f"{escape(result.arm.title)}: {escape(result.index.describe())}", soft_wrap=True)
+    explanation = explain_index(result.index)
+    if explanation:
+        out.print(f"{escape(result.index.name)}: {escape(explanation)}", soft_wrap=True)
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
     if not result.complete:
         out.print(
@@ -302,7 +327,7 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
         return
     threshold = thresholds[0] if thresholds else result.default_threshold()
     ranked = result.upgrades(threshold)
-    best = {u.joint: u for u in result.upgrades(threshold, optimised=True)} if result.optimised is not None else {}
+    best = {u.joint: u for u in best_upgrades(result, threshold)}
     some = [u for u in ranked if u.gain > 0 or (u.joint in best and best[u.joint].gain > 0)]
     condition = f"{'at least' if result.index.better == 'larger' else 'at most'} {threshold:g}"
     if not some:
@@ -314,6 +339,13 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
     for u in some:
         table.add_row(escape(u.joint), *_gain(u), *(_gain(best[u.joint]) if best else []))
     out.print(table)
+    if best:
+        count = min(result.distribution.samples, MOST_OPTIMISED_AGAIN)
+        now = next(iter(best.values())).before
+        out.print(
+            f"optimised: configurations of {counted(count, 'pose')} optimised again without that joint; with it {now:.4f}",
+            soft_wrap=True,
+        )
 
 
 def _gain(u: Upgrade) -> list[str]:

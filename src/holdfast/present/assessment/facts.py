@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotations_of_quaternions
-from holdfast.assessment.answer import Answer
+from holdfast.assessment.answer import ZERO, Answer
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.rows import provenance
 from holdfast.assessment.upgrade import sample
@@ -19,11 +19,12 @@ from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene
 from holdfast.report.views import SIDE, View, sides
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.words import as_given, number
+from holdfast.words import as_given, half_width, number
 
 Array = NDArray[np.float64]
 
 _MOST_DOTS = 20_000
+_WIDEST_AXIS = 4.0  # times the largest value: beyond it a bound would flatten the curve
 
 
 @dataclass(frozen=True)
@@ -196,11 +197,13 @@ class Facts(Answer):
 
     @cached_property
     def marks(self) -> list[Mark]:
-        """Lines at the threshold and at the bound."""
+        """Lines at the threshold and at the bound, unless they are far beyond all values."""
         found = [Mark(self.threshold, f"threshold {as_given(self.threshold)}{self.unit}")] if self.decided else []
         if self.index.bound is not None:
             found.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
-        return found
+        highest = max((x.highest for x in (self.d, self.a.optimised) if x is not None and x.reached), default=0.0)
+        chosen = self.chosen or self.index.bound is None or highest <= ZERO
+        return found if chosen else [mark for mark in found if mark.x <= _WIDEST_AXIS * highest]
 
     @cached_property
     def curves(self) -> list[Curve]:
@@ -211,7 +214,7 @@ class Facts(Answer):
         first = Curve(
             self.axis,
             self.a.cdf(self.axis),
-            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band ±{band:.3f}",
+            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band {half_width(band)}",
             band=band,
         )
         if not self.d.unreached:

@@ -17,6 +17,8 @@ from holdfast.report import page, scenes
 from holdfast.report.page import Callout, Cell, Page, Section
 from holdfast.words import either, interval, number, percent
 
+LITTLE_REACH = 0.1  # of the poses that the healthy arm reaches
+
 # The sections, in order: files of `sections` with a TITLE and blocks(facts: Facts) -> list[Block]; one without is left out.
 SECTIONS = (
     "key_numbers",
@@ -57,14 +59,26 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
 
 
 def _verdict(f: Facts) -> Callout:
-    """Single points of failure by structure, said at once."""
+    """Describe the single points of failure: exact ones in red, near ones in amber."""
     own, everything = f.structures
     text = explain(f.a.arm, own, everything)
-    fatal = not own.survives
-    title = f"A single locked joint {'' if own.fatal else 'all but '}ends this task everywhere" if fatal else ""
     if own.never:
-        title = "The task is impossible for this arm"
-    return Callout(text, "bad" if fatal else "good", title)
+        return Callout(text, "bad", "The task is impossible for this arm")
+    if not own.survives:
+        return Callout(text, "bad", f"A single locked joint {'' if own.fatal else 'all but '}ends this task everywhere")
+    names = [f.a.arm.joint_names[w.joint] for w in own.weak]
+    left = {} if f.a.survivors is None or not f.d.reached else {name: p.value for name, p in f.a.survival().items()}
+    few = [name for name, share in left.items() if share <= LITTLE_REACH * (1 - f.d.unreached_share)]
+    for name in dict.fromkeys([*names, *few]):
+        if name in left:
+            text += f" Once {name} has locked, {percent(left[name])} of the poses of this region are still reached."
+        else:
+            text += f" A run with --after-lock computes how much of the region the lock of {name} leaves."
+    if names:
+        return Callout(text, "warn", f"The lock of {either(names)} nearly ends this task")
+    if few:
+        return Callout(text, "warn", f"The lock of {either(few)} leaves little of the region")
+    return Callout(text, "good")
 
 
 def _numbers(f: Facts) -> list[tuple[Cell, Cell]]:

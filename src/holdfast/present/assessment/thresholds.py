@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from holdfast.present.assessment.facts import Facts
 from holdfast.report.figures import frame
 from holdfast.report.page import Block, Extra
-from holdfast.words import as_given, interval, together
+from holdfast.words import as_given, half_width, interval, together
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ _HTML = Markup("""\
 <input type="range" min="0" max="{last}" value="{start}" step="1"></label></p>
 <dl class="answers">{answers}</dl>
 <p class="quiet">An interval is that of one threshold, chosen beforehand; for all at once
-the band of {curve} holds, ±{band:.3f}.</p>
+the band of {curve} holds, {band}.</p>
 {bars}""")
 
 _BAR = Markup("""\
@@ -109,7 +109,7 @@ def slider(
         start=start,
         answers=rows,
         curve=curve,
-        band=band,
+        band=half_width(band),
         bars=seen,
     )
     return Extra("threshold", data, html, label="Probability of a threshold of one's own")

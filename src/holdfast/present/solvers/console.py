@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -77,6 +78,8 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
         "before": "found" if optima.initial is None else "given",
         "seed": optima.seed,
         "clearance": None if optima.clearance is None else shape_summary(optima.clearance, optima.margin),
+        "failures": _failures(optima),
+        "cap": None if optima.cap is None else asdict(optima.cap) | {"remaining": _remaining(optima)},
         "poses": [row(k) for k in range(len(found.poses))],
     }
     made: dict[str, Any] = plain(data)
@@ -149,7 +152,8 @@ def story(optima: Optima) -> Story:
         about=f"{capitalised(_wish(optima))}, task {optima.task.describe()}",
         facts=facts,
         lines=[
-            f"{Status(int(s)).sentence.capitalize()}." for s in sorted({*map(int, found.status)}) if s != Status.OK and many
+            *([] if optima.cap is None else [_advice(optima)]),
+            *[f"{Status(int(s)).sentence.capitalize()}." for s in sorted({*map(int, found.status)}) if s != Status.OK and many],
         ],
         views=_beside(found, first) if some.any() else [],
         tables=tables,
@@ -202,7 +206,9 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
     value_before = found.value_before
     unit = "" if optima.objective.unit in ("1", "mixed") else f" {escape(optima.objective.unit)}"
     first = _first(optima)
-    head = f"{asked or _wish(optima)}, arm {optima.arm.title}, task {optima.task.describe()}"
+    over = _failures(optima)
+    wish = (asked or _wish(optima)) + ("" if over is None else f" over failures {over}")
+    head = f"{wish}, arm {optima.arm.title}, task {optima.task.describe()}"
     out.print(escape(head), soft_wrap=True)
     if len(found.poses) == 1:
         _show_one(found, out, first, unit)
@@ -217,6 +223,8 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
     _show_clearance(found, out)
     for status in sorted({int(s) for s in found.status if s != Status.OK}):
         out.print(f"[yellow]{_name(status).replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
+    if optima.cap is not None:
+        out.print(f"[yellow]{escape(_advice(optima))}[/]", soft_wrap=True)
     if optima.initial is not None and found.worse.any():
         which = "" if len(found.poses) == 1 else f" of {int(found.worse.sum())} poses"
         out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)
@@ -284,6 +292,32 @@ def to_csv(optima: Optima, path: Path) -> Path:
     return path
 
 
+def _failures(optima: Optima) -> str | None:
+    """Write the failures of an index as --failures takes them; None where they are those of each joint alone."""
+    index = optima.objective
+    if not isinstance(index, Index) or index.failures == tuple((k,) for k in range(index.arm.n)):
+        return None
+    return _numbers(index.failures)
+
+
+def _remaining(optima: Optima) -> str:
+    """Write the failures other than the one that caps the value as --failures takes them."""
+    assert optima.cap is not None
+    assert isinstance(optima.objective, Index)
+    return _numbers([optima.objective.failures[i] for i in optima.cap.remaining])
+
+
+def _numbers(failures: Sequence[Sequence[int]]) -> str:
+    """Write sets of joints, indices from 0, as ``1; 2+3``; a lone number would mean how many joints fail."""
+    text = "; ".join("+".join(str(k + 1) for k in s) for s in failures)
+    return f"{text};" if text.isdecimal() else text
+
+
+def _advice(optima: Optima) -> str:
+    assert optima.cap is not None
+    return f"{optima.cap}. To optimise without it: --failures '{_remaining(optima)}'."
+
+
 def _name(status: Any) -> str:
     return Status(int(status)).name.lower()
 
@@ -309,9 +343,14 @@ def _measures(found: Optima) -> Iterator[tuple[str, tuple[str, ...], Array, Arra
         if isinstance(measure, Susceptibility):
             named[measure.slug] = measure, measure.joint_unit
         elif isinstance(measure, Index):
-            named[measure.label] = measure, (measure.unit,) * found.arm.n
+            named[measure.label] = _by_single_joint(measure), (measure.unit,) * found.arm.n
     for label, (measure, units) in named.items():
         yield label, units, measure.by_joint(found.before), measure.by_joint(found.q)
+
+
+def _by_single_joint(index: Index) -> Index:
+    """Build the index that has a value for each joint, also for those whose failure was left out."""
+    return index if index.failures == tuple((k,) for k in range(index.arm.n)) else index.with_failures("single")
 
 
 def _summands(objective: Objective) -> list[Objective]:

@@ -53,7 +53,7 @@ def tables(found: Study | Merged) -> list[Rows]:
         for s in shown[:_MOST]
     ]
     title = f"{_MOST} of {len(shown)} cells that are not complete" if len(shown) > _MOST else ""
-    return [Rows(("cell", "rows", "chunks", "thread time"), rows, title)] if rows else []
+    return [Rows(("cell", "rows", "chunks", "processor time"), rows, title)] if rows else []
 
 
 def estimated(found: Sequence[Estimate]) -> dict[str, Any]:
@@ -84,10 +84,10 @@ def show_estimates(found: Sequence[Estimate], out: Console) -> None:
         )
         for e in found
     ]
-    print_rows(out, Rows(("cell", "rows", "chunks", "of one thread", "a chunk", "size, at most"), rows))
+    print_rows(out, Rows(("cell", "rows", "chunks", "processor time", "a chunk", "size, at most"), rows))
     seconds = whole["thread_seconds"]
     out.print(
-        f"{counted(len(found), 'cell')}, {whole['chunks']:,} chunks: about {duration(seconds)} of one thread, "
+        f"{counted(len(found), 'cell')}, {whole['chunks']:,} chunks: about {duration(seconds)} of processor time, "
         f"{duration(seconds / threads)} with the {threads} of this machine; at most {_bytes(whole['bytes'])} on the disk "
         f"(estimated from up to {max(e.tried for e in found)} rows of each cell)",
         soft_wrap=True,

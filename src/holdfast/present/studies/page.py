@@ -25,7 +25,7 @@ from holdfast.studies import results
 from holdfast.studies.ranking import Ended, Key, Standing, counted_range, place, row_of, said, standings
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.study_file import thresholds
-from holdfast.words import as_given, counted, duration, either, number, percent
+from holdfast.words import as_given, counted, duration, either, half_width, number, percent
 
 T = TypeVar("T")
 
@@ -264,7 +264,7 @@ def _distributions(found: Sequence[Assessed], asked: dict[Key, float]) -> list[B
         band = max(d.band() for _, some in samples for _, d in some if d is not None)
         text = (
             f"Cumulative distributions of the worst-case {index.name} (task {key[1]}) over {poses} poses of each arm; the 95 % "
-            f"band of each curve is ±{band:.3f}. A pose without a configuration counts as "
+            f"band of each curve is {half_width(band)}. A pose without a configuration counts as "
             f"{'0' if index.better == 'larger' else 'infinite'}."
         )
         about = f"Cumulative distributions of the {index.name} of all arms"
@@ -368,7 +368,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
         ("Study", f"{study.name}, seed {study.seed}, digest {study.digest}"),
         ("Cells", f"{len(cells):,}, {sum(s.chunks_done for s in cells):,} of {sum(s.chunks for s in cells):,} chunks"),
         ("Samples", f"{samples:,} rows (poses, motions, starts) in all"),
-        ("Time", f"{duration(spent)} of one thread; runs that ended took {duration(wall)}"),
+        ("Time", f"{duration(spent)} of processor time to compute; runs that ended took {duration(wall)}"),
         ("On the disk", f"{size / 1e6:.3g} MB"),
     ]
     for n, run in enumerate(study.runs[-5:]):

@@ -10,7 +10,7 @@ from holdfast.probability.distribution import Distribution
 from holdfast.report import figures
 from holdfast.report.figures import Curve
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.words import as_given, counted, interval, number
+from holdfast.words import as_given, counted, half_width, interval, number
 
 TITLE = "What choosing configurations gains"
 _MOST_DOTS = 20_000
@@ -79,7 +79,7 @@ def gain_figure(f: Facts, best: Distribution) -> Figure:
     axis = (np.geomspace if f.log else np.linspace)(low, max(ends) * 1.02, 400)
     band = best.band()
     curves = [
-        Curve(axis, best.cdf(axis), f"after, 95 % band ±{band:.3f}", band=band),
+        Curve(axis, best.cdf(axis), f"after, 95 % band {half_width(band)}", band=band),
         Curve(axis, f.d.cdf(axis), "before: as inverse kinematics found them", second=True),
     ]
     with figures.style():

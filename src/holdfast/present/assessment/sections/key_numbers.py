@@ -6,10 +6,11 @@ import numpy as np
 from markupsafe import Markup
 
 from holdfast.failures import failure_sets
+from holdfast.present.assessment.explanations import explain_index
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections import collisions
 from holdfast.report.page import Block, Table
-from holdfast.words import interval, number, percent
+from holdfast.words import half_width, interval, number, percent
 
 TITLE = "Key numbers"
 
@@ -21,6 +22,7 @@ def blocks(f: Facts) -> list[Block]:
         ("Arm", f"{a.arm.name}, {a.arm.n} joints"),
         ("Task", index.task.describe()),
         ("Index", f"worst-case {index.name}{f.unit and f', unit{f.unit}'}; {'larger' if f.larger else 'smaller'} is better"),
+        *([("What the index is", explain_index(index))] if explain_index(index) else []),
         ("Failures", f"{len(index.failures)} considered: {_failure_kinds(f)}"),
         ("Region", f"{a.region.name}: {a.region.describe()}"),
         (f"{f.noun.capitalize()}s drawn", f"{d.samples:,}" + ("" if a.complete else f" of {a.poses:,} planned")),
@@ -46,7 +48,7 @@ def blocks(f: Facts) -> list[Block]:
         facts.append(
             (
                 "Error of the CDF",
-                f"at most ±{d.band():.3f} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)",
+                f"at most {half_width(d.band())} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)",
             )
         )
     if index.bound is not None and d.reached:

@@ -6,7 +6,7 @@ from markupsafe import Markup
 
 from holdfast.present.assessment.facts import Facts
 from holdfast.report.page import Block, Table, Text
-from holdfast.words import number
+from holdfast.words import number, percent
 
 TITLE = "Single points of failure by structure"
 
@@ -19,10 +19,15 @@ def blocks(f: Facts) -> list[Block]:
     for s in everything:
         cells: list[str | Markup] = [Markup("{} {}").format(s.task, "(this run)") if s is own else s.task, str(s.redundancy)]
         little = dict(s.nearly)
+        weak = {w.joint: w for w in s.weak}
         for k in range(len(names)):
             bad = k in s.fatal or s.never
             said = Markup('<span class="fatal">fatal</span>') if bad else Markup('<span class="ok">–</span>')
-            cells.append(Markup('<span class="fatal">≤ {}</span>').format(number(little[k])) if k in little else said)
+            if k in little:
+                said = Markup('<span class="fatal">≤ {}</span>').format(number(little[k]))
+            elif k in weak:
+                said = Markup('<span class="weak">≤ {}</span>').format(percent(weak[k].manipulability_left))
+            cells.append(said)
         verdict = (
             "never possible"
             if s.never
@@ -32,6 +37,8 @@ def blocks(f: Facts) -> list[Block]:
             if s.fatal
             else "all but one"
             if s.nearly
+            else "nearly"
+            if s.weak
             else "none"
         )
         rows.append([*cells, verdict])
@@ -40,7 +47,8 @@ def blocks(f: Facts) -> list[Block]:
     return [
         Text(
             "A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps. "
-            "A number is the most of the manipulability that the lock was found to leave, where that is next to nothing."
+            "A number is the largest relative manipulability found after the lock, where that is next to nothing. A percentage "
+            "is the largest manipulability found after the lock, compared with the largest one of the healthy arm."
         ),
         Table(rows, head, frozenset({1}), marks=frozenset(range(2, len(names) + 2)), wide=True, sortable=False),
         Text(f"Joints: {joints}. Redundancy: joints minus rows of the task.", quiet=True),

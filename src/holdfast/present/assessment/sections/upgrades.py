@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from holdfast.assessment.upgrade import Upgrade
+from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN, Upgrade
+from holdfast.present.assessment.console import best_upgrades
 from holdfast.present.assessment.facts import Facts
 from holdfast.report.page import Block, Table, Text
 
@@ -19,7 +20,7 @@ def blocks(f: Facts) -> list[Block]:
     ranked = f.a.upgrades(f.threshold)
     if not ranked:
         return []
-    best = {u.joint: u for u in f.a.upgrades(f.threshold, optimised=True)} if f.a.optimised is not None else {}
+    best = {u.joint: u for u in best_upgrades(f.a, f.threshold)}
     first = ranked[0]
     if first.gain > 0:
         text = (
@@ -44,10 +45,9 @@ def blocks(f: Facts) -> list[Block]:
     if best:
         head += ["after optimisation", "gain, 95 % interval"]
         caption += f"; after optimisation {next(iter(best.values())).before:.3f}"
-        note += (
-            " After optimisation: at the configurations chosen for all failures; choosing again for those that are left would "
-            "gain more."
-        )
+        count = min(f.d.samples, MOST_OPTIMISED_AGAIN)
+        which = "" if count == f.d.samples else f" of the first {count:,} {f.noun}s"
+        note += f" After optimisation: the configurations{which} are optimised again for the failures that remain."
     return [
         Text(text),
         Table(rows, head, frozenset(range(1, len(head))), caption=caption + ".", wide=True),
