@@ -86,7 +86,7 @@ def test_the_worst_pose_of_a_report_is_read_back(tmp_path):
 
 @pytest.mark.parametrize("axis", [[0, 0, -1], [0, 0, 1], [1, -2, 0.5]])
 def test_a_cone_is_uniform_on_its_cap(axis, generator):
-    region = hf.Region.cone([0.6, 0, 0.3], [0.3, 0.6, 0.3], axis, np.deg2rad(30))
+    region = hf.Region.cone([0.6, 0, 0.3], [0.3, 0.6, 0.3], axis=axis, within=np.deg2rad(30))
     blocks = region.blocks(0, int(generator("cone").integers(2**31)))
     samples = np.concatenate([next(blocks) for _ in range(8)])
     tool = region.poses(samples)[:, :3, :3]

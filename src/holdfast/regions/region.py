@@ -168,6 +168,7 @@ class Region(Shown):
         cls,
         center: ArrayLike,
         size: ArrayLike,
+        *,
         axis: ArrayLike,
         within: float,
         name: str = "region",

@@ -121,13 +121,13 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
     return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
 
 
-def split_errors(law: Law, error: Array, hand: Array, target: Array) -> tuple[Array, Array]:
+def split_errors(law: Law, error: Array, tool: Array, target: Array) -> tuple[Array, Array]:
     """Split norms of the task's error into position errors and angle errors.
 
     Args:
         law: The control law.
         error: (N,) norms over the task's rows, m and rad.
-        hand: (N, 4, 4) tool poses, or whatever where the task has no angular row.
+        tool: (N, 4, 4) tool poses, or whatever where the task has no angular row.
         target: (N, 4, 4) targets, likewise.
 
     Returns:
@@ -135,7 +135,7 @@ def split_errors(law: Law, error: Array, hand: Array, target: Array) -> tuple[Ar
     """
     if not law.task.angular:
         return np.asarray(error), np.zeros(np.shape(error))
-    linear = np.linalg.norm(prescribed_way(law, hand, target), axis=1)
+    linear = np.linalg.norm(prescribed_way(law, tool, target), axis=1)
     return linear, np.sqrt(np.maximum(error**2 - linear**2, 0.0))
 
 
