@@ -66,7 +66,7 @@ VALUES = named(
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "diagnosis": "Verdict",
-        "faults": "Episode Feasibility",
+        "faults": "Episode Feasibility Success",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
         "frameworks": "RowFunction",
