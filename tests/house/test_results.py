@@ -150,6 +150,7 @@ def test_every_function_returns_what_is_in_a_list():
     }
     other |= {
         "NDArray",
+        "SX",
         "P",
         "T",
         "None",
