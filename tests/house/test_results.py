@@ -66,7 +66,7 @@ VALUES = named(
         "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "diagnosis": "Verdict",
-        "faults": "Episode Feasibility",
+        "faults": "Episode Feasibility Success",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
         "frameworks": "RowFunction",
@@ -150,6 +150,7 @@ def test_every_function_returns_what_is_in_a_list():
     }
     other |= {
         "NDArray",
+        "SX",
         "P",
         "T",
         "None",
