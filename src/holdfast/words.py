@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
+from collections.abc import Collection, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -149,3 +151,15 @@ def article(word: str) -> str:
 def either(words: list[str]) -> str:
     """``a, b or c``."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
+
+
+def list_names(names: Sequence[str], most: int = 60) -> str:
+    """Return quoted names for a sentence, ``most`` of them."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(f"'{x}'" for x in names[:most]) + more
+
+
+def suggest_name(name: str, known: Collection[str]) -> str:
+    """Return ``did you mean ...?`` for a sentence, or nothing where no known name is close."""
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+    return f"did you mean '{close[0]}'? " if close else ""

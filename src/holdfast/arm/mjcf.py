@@ -18,8 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm import mjcf_limits
 from holdfast.arm.machine import Link, Machine, snapped
-from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends, listed
+from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
 from holdfast.errors import ArmError, HoldfastError
+from holdfast.words import list_names
 
 Array = NDArray[np.float64]
 UNNAMED_MODEL = "MuJoCo Model"
@@ -272,12 +273,10 @@ def _arm(
     base, tip = check_ends(tree, base, tip)
     on_chain = {joint.name for joint in tree.path(base, tip) if not tree.stands(joint, hold)}
     _refuse_ties(mujoco, model, tree, on_chain)
-    still, stand = Held(tree, on_chain, hold), np.eye(4)
-    for joint in tree.path(tree.root, base):
-        stand = stand @ joint.at(still.value(joint))
+    mount = Held(tree, on_chain, hold).pose(base)
     weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
     gravity = np.zeros(3) if weightless else np.array(model.opt.gravity)
-    arm = chain(tree, base, tip, hold, name, gravity.tolist(), source, stand)
+    arm = chain(tree, base, tip, hold, name, gravity.tolist(), source, mount)
     joints = _names(model.njnt, model.joint, "joint", 1)
     at = [int(model.jnt_qposadr[joints.index(joint)]) for joint in arm.joint_names]
     return replace(arm, states={str(model.key(k).name): model.key_qpos[k][at] for k in range(model.nkey) if model.key(k).name})
@@ -301,13 +300,13 @@ def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str])
         caught = [joints[j] for j in tied_joints if joints[j] in on_chain]
         if caught:
             raise ArmError(
-                f"{kind} '{name}' ties joint {listed(caught)} of the chain, which is then no degree of freedom of its own; "
+                f"{kind} '{name}' ties joint {list_names(caught)} of the chain, which is then no degree of freedom of its own; "
                 "a serial arm needs independent joints, so remove it or choose another base and tip"
             )
         carriers = {carrier(b) for b in tied_bodies}
         if len(carriers) > 1:
             raise ArmError(
-                f"{kind} '{name}' ties the bodies {listed([bodies[b] for b in tied_bodies])}, which closes a loop over joints "
+                f"{kind} '{name}' ties the bodies {list_names([bodies[b] for b in tied_bodies])}, which closes a loop over joints "
                 "of the chain; a serial arm has no loops, so remove it or choose another base and tip"
             )
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import difflib
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import get_args
 
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from holdfast.arm.machine import GRAVITY, Chain, Joint, JointType, Link, Machine
 from holdfast.arm.poses import motion
 from holdfast.errors import ArmError
+from holdfast.words import list_names, suggest_name
 
 Array = NDArray[np.float64]
 MOVING = get_args(JointType)
@@ -22,7 +22,6 @@ FINGER = re.compile("finger|thumb|knuckle|jaw|claw", re.IGNORECASE)
 GRIPPER = re.compile("grip", re.IGNORECASE)
 TOOL = re.compile("tool|tcp|flange|grip|grasp|effector", re.IGNORECASE)
 ASK = "name one with --tip (tip= in Python)"
-MOST_CANDIDATES = 60  # in a sentence
 
 
 @dataclass(frozen=True)
@@ -83,11 +82,11 @@ class Tree:
             self.below[joint.parent].append(joint)
         roots = [link for link in self.bodies if link not in self.above]
         if len(roots) > 1:
-            raise ArmError(f"the links {listed(roots)} have no parent; a tree has one root, so connect them with joints")
+            raise ArmError(f"the links {list_names(roots)} have no parent; a tree has one root, so connect them with joints")
         reached = {link for root in roots for link in self.links_from(root)}
         loop = [link for link in self.bodies if link not in reached]
         if loop:
-            raise ArmError(f"the links {listed(loop)} are joined in a loop; a URDF must be a tree")
+            raise ArmError(f"the links {list_names(loop)} are joined in a loop; a URDF must be a tree")
         self.root = roots[0]
 
     def links_from(self, link: str) -> Iterator[str]:
@@ -109,7 +108,7 @@ class Tree:
         while link != base:
             if link not in self.above:
                 bases = possible_bases(self, tip)
-                where = f", which is {listed(bases)}" if bases else ""
+                where = f", which is {list_names(bases)}" if bases else ""
                 raise ArmError(
                     f"tip link '{tip}' does not hang on base link '{base}'; choose a base on the way from the root to the tip"
                     f"{where}"
@@ -142,10 +141,10 @@ def only_tip(tree: Tree, base: str) -> str:
     if len(candidates) == 1:
         return candidates[0]
     if candidates:
-        raise ArmError(f"the arm could end at {listed(candidates)}; {ASK}", tip=likely_tip(tree, base, candidates))
+        raise ArmError(f"the arm could end at {list_names(candidates)}; {ASK}", tip=likely_tip(tree, base, candidates))
     moving = [joint.child for joint in _hanging(tree, base) if joint.moving]
     if moving:
-        raise ArmError(f"only the fingers of a gripper move on '{base}' ({listed(moving)}); {ASK}")
+        raise ArmError(f"only the fingers of a gripper move on '{base}' ({list_names(moving)}); {ASK}")
     raise ArmError(f"no moving joint hangs on '{base}'; an arm needs at least one")
 
 
@@ -217,18 +216,6 @@ def possible_bases(tree: Tree, tip: str | None) -> list[str]:
     return [joint.parent for joint in path[: last + 1]]
 
 
-def listed(names: Sequence[str], most: int = MOST_CANDIDATES) -> str:
-    """Names for a sentence."""
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return ", ".join(f"'{x}'" for x in names[:most]) + more
-
-
-def guess(name: str, known: Collection[str]) -> str:
-    """``did you mean ...?`` for a sentence, or nothing."""
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
-    return f"did you mean '{close[0]}'? " if close else ""
-
-
 # ---- the chain ---------------------------------------------------------------------------------------------------
 
 
@@ -240,11 +227,15 @@ def check_ends(tree: Tree, base: str | None, tip: str | None) -> tuple[str, str]
     """
     if base is not None and base not in tree.bodies:
         known = possible_bases(tree, tip if tip in tree.bodies else None)
-        raise ArmError(f"there is no base link '{base}'; {guess(base, tree.bodies)}an arm could be mounted on {listed(known)}")
+        raise ArmError(
+            f"there is no base link '{base}'; {suggest_name(base, tree.bodies)}an arm could be mounted on {list_names(known)}"
+        )
     base = tree.root if base is None else base
     if tip is not None and tip not in tree.bodies:
         known = possible_tips(tree, base)
-        raise ArmError(f"there is no tip link '{tip}'; {guess(tip, tree.bodies)}the arm could end at {listed(known)}")
+        raise ArmError(
+            f"there is no tip link '{tip}'; {suggest_name(tip, tree.bodies)}the arm could end at {list_names(known)}"
+        )
     return base, only_tip(tree, base) if tip is None else tip
 
 
@@ -278,7 +269,7 @@ def chain(
     moving = [joint for joint in path if not tree.stands(joint, hold)]
     if not moving:
         ends = [x for x in possible_tips(tree, base) if x != tip]
-        where = f", such as the tip {listed(ends)}" if ends else ""
+        where = f", such as the tip {list_names(ends)}" if ends else ""
         raise ArmError(
             f"no moving joint lies between '{base}' and '{tip}'; choose a base and tip with joints in between that are not "
             f"held{where}"
@@ -318,18 +309,10 @@ def chain(
         tuple(links),
         base=np.eye(4) if mount is None else mount,
         tool=pending,
-        gravity=_gravity_at(tree, base, still) if gravity is None else np.array(gravity, dtype=np.float64),
+        gravity=still.pose(base)[:3, :3].T @ GRAVITY if gravity is None else np.array(gravity, dtype=np.float64),
         source=source,
         chain=Chain(base, tip, tuple(sorted((name, float(value)) for name, value in hold.items()))),
     )
-
-
-def _gravity_at(tree: Tree, base: str, still: Held) -> Array:
-    """Return the earth's gravity (3,) in the axes of the base link, where z of the file's root points up."""
-    rotation = np.eye(3)
-    for joint in tree.path(tree.root, base):
-        rotation = rotation @ joint.at(still.value(joint))[:3, :3]
-    return np.asarray(rotation.T @ np.array(GRAVITY))
 
 
 def _base_behind(moving: Sequence[TreeJoint]) -> str:
@@ -340,26 +323,14 @@ def _base_behind(moving: Sequence[TreeJoint]) -> str:
 
 def _refuse_followers(tree: Tree, base: str, still: Held) -> None:
     """Refuse joints next to the chain that mimic joints of the chain, all of them in one sentence."""
-    followers: dict[str, str] = {}
-    for joint in _hanging(tree, base):
-        master, passed = joint, {joint.name}
-        while master.mimic and master.name not in still.hold and master.mimic[0] in tree.joints:
-            if master.mimic[0] in still.on_path:
-                if joint.name not in still.on_path:
-                    followers[joint.name] = master.mimic[0]
-                break
-            if master.mimic[0] in passed:
-                break
-            passed.add(master.mimic[0])
-            master = tree.joints[master.mimic[0]]
+    free = {j.name: j.mimic[0] for j in _hanging(tree, base) if j.mimic and j.name not in still.on_path | still.hold.keys()}
+    followers = {name: master for name, master in free.items() if master in still.on_path}
     if followers:
         each = ", ".join(f"joint '{name}' mimics '{master}'" for name, master in followers.items())
         options = " ".join(f"--hold {name}=0" for name in followers)
-        verb = "moves" if len(set(followers.values())) == 1 else "move"
-        what = "it" if len(followers) == 1 else "they"
         raise ArmError(
-            f"{each}, which {verb} on the chain, so {what} cannot be held still; choose another tip, or freeze "
-            f"{'it' if len(followers) == 1 else 'them'} all the same: {options} (hold= in Python)"
+            f"{each}, which moves on the chain, so it cannot be held still; choose another tip, or freeze it all the same: "
+            f"{options} (hold= in Python)"
         )
 
 
@@ -401,7 +372,7 @@ class Held:
         free = [j.name for j in tree.joints.values() if j.type in MOVING]
         for name, value in hold.items():
             if name not in free:
-                raise ArmError(f"hold names '{name}', which is not a moving joint of this file; those are {listed(free)}")
+                raise ArmError(f"hold names '{name}', which is not a moving joint of this file; those are {list_names(free)}")
             joint = tree.joints[name]
             if not (np.isfinite(value) and joint.lower <= value <= joint.upper):
                 raise ArmError(
@@ -410,14 +381,23 @@ class Held:
                 )
         self.tree, self.on_path, self.hold = tree, on_path, hold
 
+    def pose(self, link: str) -> Array:
+        """Compute the pose (4, 4) of a link in the root of the file."""
+        pose = np.eye(4)
+        for joint in self.tree.path(self.tree.root, link):
+            pose = pose @ joint.at(self.value(joint))
+        return pose
+
     def value(self, joint: TreeJoint, followers: tuple[str, ...] = ()) -> float:
         """Value of a joint, rad or m; of no meaning for those that do not slide or turn about one axis."""
         if joint.name in followers:
-            raise ArmError(f"the joints {listed(followers)} mimic each other in a circle; one of them must be independent")
+            raise ArmError(f"the joints {list_names(followers)} mimic each other in a circle; one of them must be independent")
         if joint.name in self.hold:
             return float(self.hold[joint.name])
         if joint.mimic:
             master, multiplier, offset = joint.mimic
+            if master in self.on_path:
+                raise ArmError(f"joint '{joint.name}' mimics '{master}', which moves on the chain; freeze it with hold")
             if master not in self.tree.joints:
                 raise ArmError(f"joint '{joint.name}' mimics '{master}', which the file does not define")
             return multiplier * self.value(self.tree.joints[master], (*followers, joint.name)) + offset

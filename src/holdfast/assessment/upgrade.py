@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -75,7 +75,7 @@ class Sample:
     def first(self) -> Sample:
         """The first 500 poses: those that are optimised again without each joint."""
         kept: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
-        return Sample(**{name: None if x is None else x[:MOST_OPTIMISED_AGAIN] for name, x in kept.items()})
+        return replace(self, **{name: x[:MOST_OPTIMISED_AGAIN] for name, x in kept.items() if x is not None})
 
 
 def sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> Sample:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from time import monotonic
 
@@ -108,7 +109,7 @@ def need_flint() -> None:
     Raises:
         InputError: It is not.
     """
-    if verifier.balls.flint is None:
+    if find_spec("flint") is None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
 
 

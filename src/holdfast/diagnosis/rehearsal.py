@@ -70,8 +70,8 @@ def rehearse(
 
     Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a motion. Each
     drive closes its velocity loop faster than the control cycle of 1 kHz; at random configurations of every built-in arm with
-    inertial data the linearised cycle has no eigenvalue above 0.98 in magnitude. The body is not quite the arm's model: masses and friction are off
-    by up to ``mismatch``. Faults begin and end as their events say.
+    inertial data the linearised cycle has no eigenvalue above 0.98 in magnitude. The body is not quite the arm's model: masses
+    and friction are off by up to ``mismatch``. Faults begin and end as their events say.
 
     Args:
         arm: The arm, with inertial data.

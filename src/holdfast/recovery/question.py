@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
-from holdfast.arm.tree import listed
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.certainty import certain_contacts, unknown_shape
 from holdfast.errors import InputError
@@ -22,6 +21,7 @@ from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.recovery import Ending
 from holdfast.recovery.rows import Rows
 from holdfast.solvers import joint_space
+from holdfast.words import list_names
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
@@ -127,7 +127,7 @@ def goal_of(
         return None
     if isinstance(goal, str):
         if goal != "home" and goal not in arm.states:
-            known = listed(list({"home": 0, **arm.states}))
+            known = list_names(list({"home": 0, **arm.states}))
             raise InputError(f"goal '{goal}' is not known; give {known}, a pose (4, 4) or a configuration ({arm.n},)")
         q, text = (arm.states[goal], goal) if goal in arm.states else home_of(arm)
     else:
