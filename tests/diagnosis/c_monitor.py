@@ -40,7 +40,8 @@ int main(void) {
         for (k = 0; k < N; ++k) { out[k] = state.r[k]; out[N + k] = state.level[k]; out[2 * N + k] = state.over_y[k]; }
         out[3 * N] = state.over_w;
         out[3 * N + 1] = told.alarm; out[3 * N + 2] = told.time; out[3 * N + 3] = told.joint; out[3 * N + 4] = told.kind;
-        out[3 * N + 5] = told.loss; out[3 * N + 6] = monitor_stale(&state); out[3 * N + 7] = state.push; out[3 * N + 8] = told.suspect;
+        out[3 * N + 5] = told.loss; out[3 * N + 6] = monitor_stale(&state); out[3 * N + 7] = state.push;
+        out[3 * N + 8] = told.suspect;
         fwrite(out, sizeof *out, 3 * N + 9, stdout);
     }
     return 0;
