@@ -22,14 +22,14 @@ KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggis
 CYCLES, REARMED, TOLERANCE = 400, 300, 1e-12
 SENSORS = hf.diagnosis.Sensors(latency=0.003)
 # Reads records, one cycle after the other in doubles: q, reference, whether there are torques and they, whether there is a pose
-# and that; a cycle that begins with a number above 1e300 begins a new record. Writes r, its level, excess, verdict and push.
+# and that; a cycle that begins with a number above 1e300 begins a new record. Writes r, level, excess, verdict, push, suspect.
 HARNESS = """
 #include "monitor.h"
 #include <stdio.h>
 enum { N = MONITOR_JOINTS, AGAIN = 300 };
 static monitor_state state;
 int main(void) {
-    double in[3 * N + 18], out[3 * N + 8];
+    double in[3 * N + 18], out[3 * N + 9];
     monitor_verdict told;
     int k, cycle = 0;
     monitor_init(&state);
@@ -41,7 +41,8 @@ int main(void) {
         out[3 * N] = state.over_w;
         out[3 * N + 1] = told.alarm; out[3 * N + 2] = told.time; out[3 * N + 3] = told.joint; out[3 * N + 4] = told.kind;
         out[3 * N + 5] = told.loss; out[3 * N + 6] = monitor_stale(&state); out[3 * N + 7] = state.push;
-        fwrite(out, sizeof *out, 3 * N + 8, stdout);
+        out[3 * N + 8] = told.suspect;
+        fwrite(out, sizeof *out, 3 * N + 9, stdout);
     }
     return 0;
 }
@@ -145,6 +146,7 @@ def said_by_python(monitor, record):
             loss,
             stale,
             monitor._alarm.push if v.alarm else 0,
+            -1 if v.suspect is None else names.index(v.suspect),
         ]
         rows.append([*monitor._r, *monitor._level, *monitor._over_y, monitor._over_w, *last])
     return np.array(rows, dtype=float)
@@ -175,8 +177,8 @@ if(++cycle==={again})monitor.rearm();
 const torque=row[2*n]>0?row.subarray(2*n+1,3*n+1):null,pose=row[3*n+1]>0?row.subarray(3*n+2):null;
 const t=monitor.step(row.subarray(0,n),row.subarray(n,2*n),torque,pose),stale=monitor.stale();
 output.set([...monitor.r,...monitor.level,...monitor.overY,monitor.overW,t.alarm?1:0,t.time,t.joint,t.kind,t.loss,
-stale.includes("joints")+2*stale.includes("tool"),monitor.push],at);
-at+=3*n+8;
+stale.includes("joints")+2*stale.includes("tool"),monitor.push,t.suspect],at);
+at+=3*n+9;
 }}
 """
 
@@ -187,9 +189,9 @@ def run_in_node(arm, bounds, records):
 
     data = np.frombuffer(b"".join(as_bytes(arm, record) for record in records))
     script = IN_NODE.format(n=arm.n, again=REARMED)
-    size = len(records) * CYCLES * (3 * arm.n + 8)
+    size = len(records) * CYCLES * (3 * arm.n + 9)
     out = javascript.run(script, data, size, monitor=hf.diagnosis.javascript_of(arm, bounds, sensors=SENSORS))
-    return out.reshape(len(records), CYCLES, 3 * arm.n + 8)
+    return out.reshape(len(records), CYCLES, 3 * arm.n + 9)
 
 
 def compared(arm, program, count, rng, bounds, *, node=False):
@@ -201,12 +203,12 @@ def compared(arm, program, count, rng, bounds, *, node=False):
     pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
     for record, one in zip(records, ours, strict=True):
         done = subprocess.run([str(program)], input=as_bytes(arm, record), capture_output=True, check=True)
-        pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 3 * n + 8)))
+        pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 3 * n + 9)))
     for one, theirs in pairs:
         large = np.maximum(np.abs(one[:, :n]).max(axis=0), bounds.torque)
         size = np.r_[large, large, np.ones(n + 1)]
         worst = max(worst, float((np.abs(one - theirs)[:, : 3 * n + 1] / size).max()))
-        whole = [k for k in range(3 * n + 1, 3 * n + 7) if k != 3 * n + 5]
+        whole = [*range(3 * n + 1, 3 * n + 5), 3 * n + 6, 3 * n + 8]
         same = (one[:, whole] == theirs[:, whole]).all() and np.allclose(
             one[:, [3 * n + 5, 3 * n + 7]], theirs[:, [3 * n + 5, 3 * n + 7]], rtol=1e-7, atol=1e-9
         )

@@ -306,8 +306,8 @@ def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str])
         carriers = {carrier(b) for b in tied_bodies}
         if len(carriers) > 1:
             raise ArmError(
-                f"{kind} '{name}' ties the bodies {list_names([bodies[b] for b in tied_bodies])}, which closes a loop over joints "
-                "of the chain; a serial arm has no loops, so remove it or choose another base and tip"
+                f"{kind} '{name}' ties the bodies {list_names([bodies[b] for b in tied_bodies])}, which closes a loop over "
+                "joints of the chain; a serial arm has no loops, so remove it or choose another base and tip"
             )
 
 

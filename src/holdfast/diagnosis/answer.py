@@ -86,7 +86,8 @@ class Diagnosis(Result):
         if not v.alarm:
             lines = [f"no fault seen in {self.log.duration:.4g} s"]
         elif v.kind == "contact":
-            lines = [f"alarm at {format_seconds(v.time)}: something pushed the arm; no joint is to blame"]
+            blame = f", or {v.suspect} has a fault: it alone is above its bound" if v.suspect else "; no joint is to blame"
+            lines = [f"alarm at {format_seconds(v.time)}: something pushed the arm{blame}"]
         else:
             lost = f" (it gives {1 - v.loss:.0%} of its torque, ± {v.uncertainty:.0%})" if v.kind == "weak" else ""
             lines = [f"alarm at {format_seconds(v.time)}: {v.joint or 'a joint that is not known'} {_KINDS[v.kind]}{lost}"]

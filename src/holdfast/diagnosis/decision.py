@@ -135,7 +135,8 @@ class Decision:
             return self._sensor()
         if self.push > PUSHED and not (self._kinds is not None and self._kinds.lost):
             reason = ("a force on a link explains all rows",)
-            return Verdict(True, self._time, kind="contact", candidates=("contact",), evidence=reason)
+            suspect = self._find_lone_joint()
+            return Verdict(True, self._time, kind="contact", candidates=("contact",), suspect=suspect, evidence=reason)
         if self._kinds is None:
             largest = self._arm.joint_names[int(self._size.argmax())]
             return Verdict(True, self._time, joint=largest if last and self.count else None)
@@ -146,8 +147,15 @@ class Decision:
         others = np.delete(size, self._kinds.joint).max(initial=0.0)
         reason = (f"its residuals are {size[self._kinds.joint]:.3g} times their bounds, those of the next joint {others:.3g}",)
         found: dict[str, Any] = self._kinds.named(joint.unit, () if self._tool else ("sensor",))
-        blamed = None if found["kind"] == "contact" else joint.name
-        return Verdict(True, self._time, joint=blamed, **{**found, "evidence": reason + found["evidence"]})
+        found["evidence"] = reason + found["evidence"]
+        if found["kind"] == "contact":
+            return Verdict(True, self._time, suspect=self._find_lone_joint(), **found)
+        return Verdict(True, self._time, joint=joint.name, **found)
+
+    def _find_lone_joint(self) -> str | None:
+        """Return the joint that alone was above its bound, on average over the cycles that isolate it."""
+        above = np.flatnonzero(self._size > self._split)
+        return self._arm.joint_names[above[0]] if above.size == 1 else None
 
     def _sensor(self) -> Verdict:
         """Of which joint the sensor would explain the tool's pose."""

@@ -34,6 +34,8 @@ class Verdict:
         uncertainty: By how much ``loss`` may be off while the residuals of a healthy arm stay within those of calibration:
             large where the motor's torque is mostly friction, or the masses are not known.
         candidates: Kinds that remain possible.
+        suspect: Name of the joint that alone was above its bound, where the kind is ``contact``: a fault of this joint remains
+            possible. None otherwise.
         evidence: A phrase for each reason.
     """
 
@@ -45,6 +47,7 @@ class Verdict:
     loss: float = np.nan
     uncertainty: float = np.nan
     candidates: tuple[str, ...] = ()
+    suspect: str | None = None
     evidence: tuple[str, ...] = ()
 
 

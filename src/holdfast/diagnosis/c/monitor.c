@@ -1,10 +1,22 @@
 enum { N = COUNT, SMOOTHED = 5 };
 static const double DT = CONST_DT;
 
+/* The joint that alone was above its bound, on average over the cycles that isolate it; -1 if there is none. */
+static int find_lone_joint(const NAME_state *s) {
+    int k, lone = -1, above = 0;
+    for (k = 0; k < N; ++k)
+        if (s->size[k] > CONST_SPLIT) {
+            lone = k;
+            above += 1;
+        }
+    return above == 1 ? lone : -1;
+}
+
 static void answer(NAME_state *s, int joint, NAME_kind kind, double loss) {
     s->verdict.joint = joint;
     s->verdict.kind = kind;
     s->verdict.loss = loss;
+    s->verdict.suspect = kind == GUARD_CONTACT ? find_lone_joint(s) : -1;
 }
 
 /* Rates, and the residual of the momentum. */

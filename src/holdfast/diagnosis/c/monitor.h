@@ -20,13 +20,15 @@ typedef enum {
 } NAME_kind;
 
 /* What is known: without an alarm the rest means nothing. joint: from 0, -1 if none is to blame or it is not known yet.
-   loss: fraction of its torque that the motor lost, -1 where that is not the question. */
+   loss: fraction of its torque that the motor lost, -1 where that is not the question.
+   suspect: the joint that alone was above its bound, where the kind is a contact; -1 otherwise. */
 typedef struct {
     int alarm;
     double time;
     int joint;
     NAME_kind kind;
     double loss;
+    int suspect;
 } NAME_verdict;
 
 /* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */

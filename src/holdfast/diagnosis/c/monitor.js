@@ -42,7 +42,7 @@ export class Monitor {
         for (const name of ["rr", "rt", "rs", "tt", "ss", "ts", "count", "poses", "some", "push"]) this[name] = 0;
         this.alarmed = this.torques = this.tool = this.suspect = false;
         this.joint = this.told = -1;
-        this.verdict = {alarm: false, time: 0, joint: -1, kind: UNKNOWN, loss: -1};
+        this.verdict = {alarm: false, time: 0, joint: -1, kind: UNKNOWN, loss: -1, suspect: -1};
     }
 
     kind() {
@@ -260,7 +260,8 @@ export class Monitor {
     }
 
     #answer(joint, kind, loss) {
-        Object.assign(this.verdict, {joint, kind, loss});
+        const above = kind === CONTACT ? [...this.size.keys()].filter((k) => this.size[k] > CONST_SPLIT) : [];
+        Object.assign(this.verdict, {joint, kind, loss, suspect: above.length === 1 ? above[0] : -1});
     }
 
     #decide() {

@@ -10,7 +10,7 @@
 int main(void) {
     static NAME_state state; /* one for each arm */
     double cycle[3 * COUNT];
-    NAME_verdict verdict = {0, 0, -1, GUARD_UNKNOWN, -1};
+    NAME_verdict verdict = {0, 0, -1, GUARD_UNKNOWN, -1, -1};
     int k, known = 0;
     NAME_init(&state);
     for (;;) {

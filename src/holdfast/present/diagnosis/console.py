@@ -26,6 +26,7 @@ def to_dict(found: Bounds | Diagnosis) -> dict[str, Any]:
         "alarm": v.alarm,
         "time_s": v.time,
         "joint": v.joint,
+        "suspect": v.suspect,
         "kind": v.kind if v.alarm else None,
         "loss": v.loss,
         "uncertainty": v.uncertainty,
