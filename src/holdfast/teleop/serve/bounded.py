@@ -94,7 +94,7 @@ def protocols(
             silent.start(self.transport)
             super().on_response_complete()
 
-    class _WebSocket(_ReadByPeer, WebSocketsSansIOProtocol):
+    class _WebSocket(_ReadByPeer, WebSocketsSansIOProtocol):  # type: ignore[misc]
         pass
 
     return _Http, _WebSocket
