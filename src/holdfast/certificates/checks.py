@@ -13,6 +13,7 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.documents import need_arm, qualify_claim
+from holdfast.certificates.verified import balls
 from holdfast.errors import HoldfastError, InputError
 from holdfast.notice import says
 from holdfast.result import Result
@@ -108,7 +109,7 @@ def need_flint() -> None:
     Raises:
         InputError: It is not.
     """
-    if verifier.balls.flint is None:
+    if balls.flint is None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
 
 
