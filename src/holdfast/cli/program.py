@@ -124,7 +124,7 @@ def _root(
 class _Output(FileIO):
     """The standard output, which drops what nobody reads: a command whose reader has ended still ends with its own code."""
 
-    def write(self, content: Any) -> int | None:
+    def write(self, content: Any, /) -> int:
         """Write to the output, or to nothing once its reader has ended."""
         try:
             return super().write(content)
