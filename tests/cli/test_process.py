@@ -162,3 +162,17 @@ def test_more_than_there_is_memory_for():
     assert (done.returncode, done.stdout) == (2, "")
     assert "there is not enough memory" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(("halvings", "code"), [("1", 3), ("8", 0)])
+def test_the_exit_code_survives_a_reader_that_has_ended(tmp_path, halvings, code):
+    """As of 'holdfast ... | true': nobody reads the text, but the code still tells the outcome."""
+    size = "0.02" if code == 0 else "1.5"
+    words = ["certify", "reach", "planar-3r", "--box", "1.6 0.4", "--size", size, "--halvings", halvings, "--no-check"]
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "w") as output:
+        done = subprocess.run(
+            [*PROGRAM, *words, "--out", str(tmp_path / "a.certificate")], stdout=output, stderr=subprocess.PIPE, text=True
+        )
+    assert (done.returncode, done.stderr) == (code, "")

@@ -226,16 +226,12 @@ def check_ends(tree: Tree, base: str | None, tip: str | None) -> tuple[str, str]
         ArmError: There is no such link, or more than one end.
     """
     if base is not None and base not in tree.bodies:
-        known = possible_bases(tree, tip if tip in tree.bodies else None)
-        raise ArmError(
-            f"there is no base link '{base}'; {suggest_name(base, tree.bodies)}an arm could be mounted on {list_names(known)}"
-        )
+        known = list_names(possible_bases(tree, tip if tip in tree.bodies else None))
+        raise ArmError(f"there is no base link '{base}'; {suggest_name(base, tree.bodies)}an arm could be mounted on {known}")
     base = tree.root if base is None else base
     if tip is not None and tip not in tree.bodies:
-        known = possible_tips(tree, base)
-        raise ArmError(
-            f"there is no tip link '{tip}'; {suggest_name(tip, tree.bodies)}the arm could end at {list_names(known)}"
-        )
+        known = list_names(possible_tips(tree, base))
+        raise ArmError(f"there is no tip link '{tip}'; {suggest_name(tip, tree.bodies)}the arm could end at {known}")
     return base, only_tip(tree, base) if tip is None else tip
 
 

@@ -6,7 +6,7 @@ import os
 import shlex
 import sys
 from importlib import import_module
-from io import TextIOWrapper
+from io import BufferedWriter, FileIO, TextIOWrapper
 from shutil import get_terminal_size
 from textwrap import fill
 from typing import Annotated, Any
@@ -121,11 +121,34 @@ def _root(
     del version
 
 
+class _Output(FileIO):
+    """The standard output, which drops what nobody reads: a command whose reader has ended still ends with its own code."""
+
+    def write(self, content: Any, /) -> int:
+        """Write to the output, or to nothing once its reader has ended."""
+        try:
+            return super().write(content)
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            return super().write(content)
+
+
 def main() -> None:
     """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # where an encoding has few characters, as that of files on Windows
             stream.reconfigure(errors="backslashreplace")
+    if isinstance(sys.stdout, TextIOWrapper) and sys.stdout is sys.__stdout__:
+        output, sys.stdout = (
+            sys.stdout,
+            TextIOWrapper(
+                BufferedWriter(_Output(1, "w", closefd=False)),
+                sys.stdout.encoding,
+                "backslashreplace",
+                line_buffering=sys.stdout.line_buffering,
+            ),
+        )
+        output.flush()
     try:
         code = assembled(asked(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
     except HoldfastError as error:
