@@ -397,7 +397,7 @@ MJCF = b"""<mujoco model="toy">
     height="8" rgb1="0 0 0" rgb2="1 1 1"/><material name="m" texture="t"/></asset>
   <worldbody>
     <geom type="hfield" hfield="h"/>
-    <replicate count="2" offset="1 0 0"><geom size="0.1" pos="0 3 0" material="m"/></replicate>
+    <replicate count="2" offset="1 0 0"><geom type="sphere" size="0.1" pos="0 3 0" material="m"/></replicate>
     <body name="one" pos="0 0 0.3" euler="0 90 0">
       <joint name="a" type="hinge" axis="0 0 1" range="-120 120" actuatorfrcrange="-5 5"/>
       <geom fromto="0 0 0 0.3 0 0"/>

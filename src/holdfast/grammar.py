@@ -35,6 +35,11 @@ def is_number(text: str) -> bool:
     return True
 
 
+def is_count(text: str) -> bool:
+    """Return whether a text is a whole number of 0 or more, in decimal digits, that a computer can count to."""
+    return text.isdecimal() and len(text) <= 18
+
+
 def measures(name: str, text: str) -> list[float]:
     """Numbers by commas, in rad and m: ``2mm,1deg``, ``0.002,0.0175``.
 

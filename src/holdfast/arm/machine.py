@@ -15,6 +15,7 @@ from holdfast.arguments import checked_class, real_numbers
 from holdfast.arm.poses import motion
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
+from holdfast.files.reading import is_unicode
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
@@ -58,6 +59,8 @@ class Joint:
     def __post_init__(self) -> None:
         if self.type not in ("revolute", "continuous", "prismatic"):
             raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
+        if not is_unicode(self.name):
+            raise ArmError(f"the joint name {self.name!a} holds half of a surrogate pair; give a name of whole characters")
         object.__setattr__(self, "origin", transform(self.origin, f"origin of joint '{self.name}'"))
         axis = _numbers(self.axis, f"axis of joint '{self.name}'")
         length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < _MOST else 0.0
@@ -218,6 +221,8 @@ class Machine:
     states: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if not is_unicode(self.name):
+            raise ArmError(f"the arm's name {self.name!a} holds half of a surrogate pair; give a name of whole characters")
         joints = tuple(self.joints)
         if not joints:
             raise ArmError(f"arm '{self.name}' has no joints; it needs at least one")

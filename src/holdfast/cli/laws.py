@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from holdfast.cli.options import TARGET_HELP
 from holdfast.cli.values import read_target, read_task
+from holdfast.grammar import is_count
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def law_of(label: str, arm: str, task: str | None, chain: Chain, **more: Any) ->
 def read_places(text: str) -> str | int:
     """A lattice as it is written, or a number of random places."""
     text = text.removeprefix("random:")
-    return int(text) if text.isdecimal() else text
+    return int(text) if is_count(text) else text
 
 
 def read_targets(law: Law, text: str) -> Any:

@@ -57,5 +57,5 @@ def filled(package: str, folder: str, file: str, words: Mapping[str, str]) -> st
 
 def commented(lines: Sequence[str]) -> str:
     """Lines as a comment of C, in plain ASCII, that nothing in them ends."""
-    safe = [x.replace("*/", "* /").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
+    safe = [x.replace("*/", "* /").replace("/*", "/ *").encode("ascii", "replace").decode().replace("\n", " ") for x in lines]
     return "/*\n" + "\n".join(f" * {x}".rstrip() for x in safe) + "\n */"

@@ -297,7 +297,7 @@ def numbers(values: ArrayLike) -> str:
 
 def quoted(text: str) -> str:
     """A C string; bytes that are not plain ASCII in octal."""
-    plain = "".join(chr(b) if 32 <= b < 127 and b not in b'"\\?' else f"\\{b:03o}" for b in text.encode())
+    plain = "".join(chr(b) if 32 <= b < 127 and b not in b'"\\?' else f"\\{b:03o}" for b in text.encode(errors="replace"))
     return f'"{plain}"'
 
 

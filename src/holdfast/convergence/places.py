@@ -13,6 +13,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
+from holdfast.grammar import is_count
 from holdfast.solvers import joint_space
 from holdfast.solvers.curve_tracing import TOLERANCE, Component
 from holdfast.solvers.inverse_kinematics import solver
@@ -110,7 +111,7 @@ def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, gen
         return given
     if isinstance(given, str):
         kind, _, count = given.partition(":")
-        if kind != "grid" or not (count or "0").isdecimal():
+        if kind != "grid" or not is_count(count or "0"):
             raise InputError(f"places '{given}' are not known; give grid, grid:52, a number, or an array of positions or poses")
         return lattice(arm, task, int(count or LATTICE))
     if isinstance(given, (int, np.integer)):

@@ -11,6 +11,7 @@ from typing import Any
 
 from holdfast.engine.runner import Result, Stop, Task, compute
 from holdfast.errors import InputError, StoreError
+from holdfast.grammar import is_count
 
 _POLL = 0.5  # s between looks at the scheduler
 _PATIENCE = 15.0  # s without the scheduler before it counts as gone
@@ -40,7 +41,7 @@ class Cluster:
         self._own: Any = None
         if address.startswith(_LOCAL):
             count = address.removeprefix(_LOCAL)
-            if not count.isdecimal() or int(count) < 1:
+            if not is_count(count) or int(count) < 1:
                 raise InputError(f"scheduler '{address}' is not known; write local:4 for four worker processes")
             self._own = distributed.LocalCluster(
                 n_workers=int(count), threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from holdfast.errors import InputError, TaskError
-from holdfast.grammar import FAILURES, TASKS
+from holdfast.grammar import FAILURES, TASKS, is_count
+from holdfast.notice import aside
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -100,8 +101,12 @@ def read_joint(arm: Arm, text: str) -> int:
     """A joint by name or number from 1, as an index from 0."""
     text = text.strip()
     if text in arm.joint_names:
-        return arm.joint_index(text)
-    if text.isdecimal():
+        k = arm.joint_index(text)
+        if is_count(text) and 1 <= int(text) <= arm.n and int(text) != k + 1:
+            other = arm.joint_names[int(text) - 1]
+            aside(f"'{text}' is taken as the name of joint {k + 1}, not as number {text}, which is joint '{other}'")
+        return k
+    if is_count(text):
         if 1 <= int(text) <= arm.n:
             return int(text) - 1
         raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
@@ -114,6 +119,6 @@ def read_failures(arm: Arm, text: str) -> FailureSpec:
     if text in FAILURES:
         return text
     # A lone number could be a joint or how many: it is how many, as --help says.
-    if text.isdecimal():
+    if is_count(text):
         return int(text)
     return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]

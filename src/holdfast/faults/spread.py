@@ -97,6 +97,8 @@ def _number(value: Any, what: str) -> float:
         if isinstance(value, bool):
             raise ValueError
         number = float(value)  # text too: YAML 1.1 reads 1e-3 as text
+    except OverflowError as error:  # a whole number of Python may have any number of digits
+        raise InputError(f"{what} is a whole number beyond 1e308; it must be finite") from error
     except (TypeError, ValueError) as error:
         raise InputError(f"{what} is {value!r}; it must be {_FORMS}") from error
     if not math.isfinite(number):

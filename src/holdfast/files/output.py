@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
+from holdfast.files.spreadsheet import cell
 
 _TEMPORARY = ".holdfast-{}.tmp"  # beside a file that is being written
 
@@ -105,7 +107,8 @@ def write_table(
     """
     file = Path(path)
     with writing(file, what) as stream:
-        np.savetxt(stream, rows, fmt=form, delimiter=",", header=",".join(header), comments="")
+        csv.writer(stream, lineterminator="\n").writerow(map(cell, header))
+        np.savetxt(stream, rows, fmt=form, delimiter=",")
     return file
 
 

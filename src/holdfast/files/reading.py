@@ -13,6 +13,8 @@ from typing import Any
 from holdfast.errors import HoldfastError, InputError
 
 LARGEST = 256 << 20
+LARGEST_INTEGER = 1 << 63  # of text that is parsed
+MOST_DIGITS = 80  # of a whole number, its base and separators included
 
 
 @contextmanager
@@ -77,13 +79,39 @@ def parsed(path: str | Path) -> Any:
 
     Raises:
         OSError: As :func:`raw`.
-        ValueError: It is not UTF-8, not JSON, or nested too deep.
+        ValueError: It is not UTF-8, not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate pair.
     """
-    content = text(path)
+    return parse_json(text(path))
+
+
+def parse_json(content: str) -> Any:
+    """Return what a text in JSON holds.
+
+    Raises:
+        ValueError: It is not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate pair.
+    """
     try:
-        return json.loads(content)
+        data = json.loads(content, parse_int=_parse_integer)
     except RecursionError as error:
         raise ValueError("it is nested too deep") from error
+    if "\\u" in content and not is_unicode(json.dumps(data, ensure_ascii=False)):
+        raise ValueError("a text in it holds half of a surrogate pair")
+    return data
+
+
+def _parse_integer(digits: str) -> int:
+    if len(digits) > MOST_DIGITS or abs(int(digits)) > LARGEST_INTEGER:
+        raise ValueError(f"the whole number {digits[:20]}... is beyond 2^63")
+    return int(digits)
+
+
+def is_unicode(text: str) -> bool:
+    """Return whether a text can be written as UTF-8, which half of a surrogate pair cannot."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def exists(path: str | Path) -> bool:

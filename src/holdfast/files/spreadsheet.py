@@ -21,6 +21,11 @@ def cell(value: Any) -> Any:
     return value
 
 
+def read_cell(text: str) -> str:
+    """Return the text that :func:`cell` made a cell from."""
+    return text[1:] if text.startswith("'") and cell(text[1:]) == text else text
+
+
 def csv_text(table: DataFrame, missing: str = "") -> str:
     """A table as CSV, every digit of its numbers, and nothing that a spreadsheet would compute.
 

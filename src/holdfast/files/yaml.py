@@ -51,6 +51,23 @@ class _Loader(yaml.SafeLoader):
             seen.add(key.value)
         return super().construct_mapping(node, deep)
 
+    def construct_scalar(self, node: yaml.ScalarNode | yaml.MappingNode) -> Any:
+        value = super().construct_scalar(node)
+        if isinstance(value, str) and not reading.is_unicode(value):
+            raise InputError(f"line {node.start_mark.line + 1}: a text holds half of a surrogate pair; write whole characters")
+        return value
+
+    def construct_yaml_int(self, node: yaml.ScalarNode) -> int:
+        # Numbers in base 60 take quadratic time, and those in base 16 have no limit of digits in Python.
+        value = super().construct_yaml_int(node) if len(node.value) <= reading.MOST_DIGITS else reading.LARGEST_INTEGER + 1
+        if abs(value) > reading.LARGEST_INTEGER:
+            line = node.start_mark.line + 1
+            raise InputError(f"line {line}: the whole number {_short(node.value, 30)} is beyond 2^63; give a smaller one")
+        return int(value)
+
+
+_Loader.add_constructor("tag:yaml.org,2002:int", _Loader.construct_yaml_int)
+
 
 def parse(text: str, hint: str = "") -> Any:
     """What a text in YAML says; None if it says nothing.

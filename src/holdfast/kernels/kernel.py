@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError, KernelError
+from holdfast.grammar import is_count
 from holdfast.kernels import casadi_backend
 from holdfast.kernels.compiled import Compiled
 from holdfast.kernels.program import SX, Program
@@ -52,7 +53,7 @@ def set_backend(name: str | None) -> None:
 
 def _checked(name: str) -> str:
     kind, colon, number = name.partition(":")
-    if kind not in BACKENDS or (colon and (kind != "cuda" or not number.isdecimal())):
+    if kind not in BACKENDS or (colon and (kind != "cuda" or not is_count(number))):
         raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}, cuda:1 for the second GPU")
     return name
 

@@ -6,6 +6,8 @@ import os
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
+from holdfast.grammar import is_count
+
 _PREFIX = "holdfast-pool"
 _lock = threading.Lock()
 _pool: ThreadPoolExecutor | None = None
@@ -17,7 +19,7 @@ def thread_count() -> int:
     if _count is not None:
         return _count
     setting = os.environ.get("HOLDFAST_THREADS", "")
-    if setting.isdigit() and int(setting) > 0:
+    if is_count(setting) and int(setting) > 0:
         return int(setting)
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.files import reading
+from holdfast.files.spreadsheet import read_cell
 
 Array = NDArray[np.float64]
 
@@ -79,7 +80,7 @@ def read_joint_table(arm: Arm, file: Path, what: str, first: str) -> JointTable:
         lines = [(reader.line_num, cells) for cells in reader if cells]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{title}: this is not a CSV table: {error}") from error
-    head = tuple(cell.strip() for cell in lines[0][1]) if lines else ()
+    head = tuple(read_cell(text.strip()) for text in lines[0][1]) if lines else ()
     wanted = joint_columns(arm)
     for name in wanted:
         if head.count(name) != 1:

@@ -24,6 +24,7 @@ from holdfast.clearance.exact.sharper import sharpened
 from holdfast.errors import InputError
 from holdfast.failures import Degraded, Locked, degraded_at
 from holdfast.files.output import writing
+from holdfast.files.spreadsheet import cell
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.paths.joint_table import JointTable, joint_columns, motion_columns, read_joint_table
 from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
@@ -57,7 +58,7 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
     name, values = parameter(arm, q)
     with writing(file, "waypoints") as stream:
         writer = csv.writer(stream)
-        writer.writerow([name, *joint_columns(arm)])
+        writer.writerow(map(cell, [name, *joint_columns(arm)]))
         writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])
     return file
 

@@ -12,7 +12,7 @@ import holdfast as hf
 from holdfast.cli.options import JsonOption, SeedOption
 from holdfast.cli.progress import working
 from holdfast.errors import InputError
-from holdfast.grammar import TASKS
+from holdfast.grammar import TASKS, is_count
 from holdfast.present.printing import console, print_written
 from holdfast.present.results import printed, printed_each
 
@@ -88,6 +88,6 @@ def _task(text: str, rows: int) -> str:
 def _rows(text: str) -> int:
     if text in TASKS:
         return TASKS[text]
-    if not text.isdecimal():
+    if not is_count(text):
         raise InputError(f"'{text}' is neither a number of rows nor a task; tasks are {', '.join(TASKS)}")
     return int(text)

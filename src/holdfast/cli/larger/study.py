@@ -14,6 +14,7 @@ from holdfast.cli.groups import Chains
 from holdfast.cli.options import JsonOption
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
+from holdfast.grammar import is_count
 from holdfast.notice import working
 from holdfast.present.printing import console, print_json
 from holdfast.present.results import printed, printed_each
@@ -193,7 +194,7 @@ def report(
 def _share(text: str) -> tuple[int, int]:
     """--part: which part, of how many."""
     which, _, many = text.partition("/")
-    if not (which.isdecimal() and many.isdecimal() and 1 <= int(which) <= int(many)):
+    if not (is_count(which) and is_count(many) and 1 <= int(which) <= int(many)):
         raise InputError(f"--part '{text}' is not a part; write 1/3 for the first of three")
     return int(which), int(many)
 
