@@ -14,7 +14,6 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.documents import need_arm, qualify_claim
-from holdfast.certificates.verified import balls
 from holdfast.errors import HoldfastError, InputError
 from holdfast.notice import says
 from holdfast.result import Result
