@@ -114,8 +114,10 @@ def tests_pass(root: Path, source: Path, tests: list[str], time_limit: float) ->
     try:
         return process.wait(time_limit) == 0
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
         return False
+    finally:  # also where the program itself is stopped
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
 
 
 def try_mutations(
@@ -146,6 +148,7 @@ def main() -> None:
     parser.add_argument("--time-limit", type=float, default=120.0, help="seconds for the tests of one mutation")
     parser.add_argument("--tests", nargs="+", help="test files; the quick tests of the package by default")
     asked = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped"))  # which removes the temporary copy
     patterns, names = PACKAGES[asked.package]
     files = [file.relative_to(ROOT) for pattern in patterns for file in ROOT.glob(f"src/holdfast/{pattern}.py")]
     tests = ["-m", "not slow", *(asked.tests or [f"tests/{name}" for name in names])]
