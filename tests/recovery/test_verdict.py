@@ -277,7 +277,7 @@ def test_a_finished_path_is_verified_between_its_waypoints(three):
 
 def test_the_end_of_a_motion_may_be_1e_5_off_the_goal(three):
     rows, degraded = row_solver(three, as_task(three, "planar")).rows, hf.Degraded(three, locked={"joint3": HOME[2]})
-    q = np.array([HOME, HOME + [0.1, 0.1, 0]])
+    q = np.array([HOME, HOME + np.array([0.1, 0.1, 0])])
     for miss, ok in ((5e-6, True), (1e-4, False)):
         goal = three.forward_kinematics(q[-1])
         goal[0, 3] += miss
