@@ -72,6 +72,8 @@ def test_sound_records_are_calibrated_and_raise_no_alarm(crane, healthy):
     [
         ({"q": np.rad2deg}, r"q of 'slew' moves 5\d(\.\d)? times as far as its q_ref; q seems to be in degrees"),
         ({"q": np.deg2rad}, r"q of 'slew' moves 0\.01\d+ times .*; q_ref seems to be in degrees"),
+        ({"q": lambda q: 1000 * q}, r"q of 'slew' moves [\d.e+]+ times .*; q seems to be in mm and q_ref in m"),
+        ({"q": lambda q: q / 1000}, r"q of 'slew' moves [\d.e-]+ times .*; q_ref seems to be in mm and q in m"),
         ({"q": lambda q: q * [1, 1, -1]}, r"q of 'fold' moves -\S+ times as far as its q_ref; the two have opposite signs"),
         ({"tau": lambda tau: -tau}, r"tau of .*'luff'.* has the opposite sign"),
         ({"tau": lambda tau: tau * [1, -1, 1]}, r"tau of 'luff' has the opposite sign"),

@@ -98,26 +98,53 @@ def test_a_motion_that_touches_only_between_coarse_samples_is_refused(three):
     assert verify(bad, q[0], q, rows=rows, clearance=away).ok
 
 
-@pytest.mark.parametrize(("turn", "lift", "ok"), [(0.3, 0.0, True), (0.8, 0.0, False), (0.0, 0.5e-3, True), (0.0, 2e-3, False)])
-def test_between_waypoints_a_tool_path_is_kept_to_half_a_degree_and_a_millimetre(turn, lift, ok):
-    """The path turns and lifts away from the motion between waypoints, and meets it at each of them."""
-    arm = hf.arms.load("panda")
+class Wavy:
+    """A tool path that meets a straight joint motion at each of its 6 waypoints, and leaves it in between.
+
+    ``turn`` (degrees) and ``lift`` (m) are reached in the middle between two waypoints.
+    """
+
+    def __init__(self, arm, q, turn, lift):
+        self.arm, self.q, self.turn, self.lift = arm, q, turn, lift
+
+    def pose(self, share):
+        poses = self.arm.forward_kinematics(self.q[0] + np.outer(share, self.q[-1] - self.q[0]))
+        wave = np.sin(5 * np.pi * np.asarray(share)) ** 2
+        spin = Rotation.from_rotvec(np.deg2rad(self.turn) * wave[:, None] * [0, 0, 1]).as_matrix()
+        poses[:, :3, :3] = spin @ poses[:, :3, :3]
+        poses[:, 2, 3] += self.lift * wave
+        return poses
+
+
+@pytest.mark.parametrize(
+    ("size", "turn", "lift", "ok"),
+    [
+        (1, 0.3, 0.0, True),
+        (1, 0.8, 0.0, False),
+        (1, 0.0, 0.5e-3, True),
+        (1, 0.0, 2e-3, False),
+        (10, 0.0, 2e-3, True),
+        (10, 0.8, 0.0, False),
+    ],
+)
+def test_between_waypoints_a_tool_path_is_kept_to_half_a_degree_and_a_millimetre(size, turn, lift, ok):
+    """The millimetre is that of an arm of 1 m; the largest error is looked for at fifths of the way between waypoints."""
+    arm = (
+        hf.arms.load("panda")
+        if size == 1
+        else hf.Arm.from_dh([hf.DH(a=float(size), alpha=1.0, velocity=1.0) for _ in range(7)], name="large")
+    )
     at = np.array(hf.arms.about("panda").home)
     q, places = at + np.linspace(0, 1, 6)[:, None] * [0.3, 0.1, 0, 0, 0, 0.2, 0], np.linspace(0, 1, 6)
-
-    class Wavy:
-        def pose(self, share):
-            made = arm.forward_kinematics(at + np.outer(share, q[-1] - at))
-            wave = np.sin(5 * np.pi * np.asarray(share)) ** 2
-            spin = Rotation.from_rotvec(np.deg2rad(turn) * wave[:, None] * [0, 0, 1]).as_matrix()
-            made[:, :3, :3] = spin @ made[:, :3, :3]
-            made[:, 2, 3] += lift * wave
-            return made
-
     rows = row_solver(arm, as_task(arm, "pose")).rows
-    found = verify(hf.Degraded(arm, speeds={0: 0.5}), at, q, rows=rows, along=(Wavy(), places, slice(0, 6)))
+    along = (Wavy(arm, q, turn, lift), places, slice(0, 6))
+    found = verify(hf.Degraded(arm, speeds={0: 0.5}), at, q, rows=rows, along=along)
     assert found.ok == ok, found
     assert ok or "is off the tool path by" in str(found)
+    largest = max(np.deg2rad(turn), lift) * np.sin(0.4 * np.pi) ** 2
+    if turn == 0:  # else the three rows of the rotation share it
+        assert found.path_miss >= largest / np.sqrt(3) - 1e-9
+    assert found.path_miss <= largest + 1e-9
 
 
 def test_a_motion_that_other_code_refuses_is_no_answer(three, monkeypatch):
@@ -246,3 +273,34 @@ def test_a_finished_path_is_verified_between_its_waypoints(three):
     rows = row_solver(three, found.task).rows
     refused = verify(found.degraded, HOME, bent, rows=rows, along=(path, found.rest.share, part))
     assert "the tool path is missed by" in str(refused)
+
+
+def test_the_end_of_a_motion_may_be_1e_5_off_the_goal(three):
+    rows, degraded = row_solver(three, as_task(three, "planar")).rows, hf.Degraded(three, locked={"joint3": HOME[2]})
+    q = np.array([HOME, HOME + np.array([0.1, 0.1, 0])])
+    for miss, ok in ((5e-6, True), (1e-4, False)):
+        goal = three.forward_kinematics(q[-1])
+        goal[0, 3] += miss
+        assert verify(degraded, HOME, q, rows=rows, goals=goal[None]).ok == ok
+        assert verify(degraded, HOME, q, rows=rows, goal_q=q[-1] + [0, miss, 0]).ok == ok
+
+
+def test_only_revolute_joints_without_limits_meet_a_goal_after_a_whole_turn():
+    """A slide that is 2 pi m away is not there."""
+    kinds = [hf.DH(a=1.0, alpha=0.3, velocity=1.0), hf.DH(a=0.5, alpha=0.2, type="prismatic")]
+    arm = hf.Arm.from_dh(kinds, name="turn and slide")
+    rows, q = row_solver(arm, as_task(arm, "position")).rows, np.array([[0.1, 0.2], [0.3, 0.4]])
+    for joint, ok in ((0, True), (1, False)):
+        goal = q[-1] + 2 * np.pi * np.eye(2)[joint]
+        found = verify(hf.Degraded(arm, speeds={0: 0.5}), q[0], q, rows=rows, goal_q=goal)
+        assert found.ok == ok, found
+        assert found.goal_miss == pytest.approx(0 if ok else 2 * np.pi, abs=1e-12)
+
+
+def test_a_motion_and_the_timed_motion_have_the_worse_of_both_findings():
+    first = Verification(faults=("a",), looked_at=3, exact_by="", goal_miss=0.1, path_miss=0.5, kept=((1.0, 5.0),))
+    timed = Verification(faults=("b",), looked_at=4, exact_by="", goal_miss=0.2, path_miss=0.3, kept=((2.0, 4.0),))
+    both = first.beside(timed)
+    assert both.faults == ("a", "as it is timed, b")
+    assert (both.looked_at, both.path_miss, both.kept) == (7, 0.5, ((2.0, 5.0),))
+    assert timed.beside(first).path_miss == 0.5
