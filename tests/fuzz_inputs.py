@@ -445,7 +445,8 @@ RECORD = sorted((Path(holdfast.__file__).parent / "designs" / "book" / "data").r
 STUDIES = [
     b"name: two arms\nseed: 1\nposes: 200\nchunk: 50\narms: [planar-3r, {file: arm.yaml}]\n"
     b"assess: {indices: [relative-manipulability, manipulability], tasks: ['base:vx,vy'], regions: [default, region.yaml],"
-    b" optimise: true, keep: rows, thresholds: {manipulability: 0.1}}\n"
+    b" optimise: true, keep: rows, thresholds: {manipulability: 0.1}}\n",
+    b"poses: 20\nchunk: 5\narms: [planar-3r]\n"
     b"convergence: {laws: [pseudoinverse, 'failure-tolerant:0.3'], motions: 20, chunk: 10, time_limit: 100}\n",
     b"poses: 20\nchunk: 5\narms: [{arm: planar-3r, vary: {a3: [0.2, 1.2], alpha2: -90..90deg}, designs: 64}]\nassess: {}\n",
     b"poses: 20\nchunk: 5\narms: [planar-3r]\nworkspace: {laws: [pseudoinverse], targets: [[1, 1]], starts: 4}\n"
