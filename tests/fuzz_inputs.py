@@ -612,7 +612,9 @@ def kinds(root: Path) -> dict[str, Kind]:
         found = load(run)
         return found.distribution, found.default_threshold, found.store.missing, found.store.dataset()  # type: ignore[union-attr]
 
-    record = hf.faults.Log(t=np.arange(200) / 100, q_ref=np.zeros((200, 3)), q=np.full((200, 3), 0.01), tau=np.ones((200, 3)))
+    still = np.full((200, 3), 0.01)
+    torques = planar.gravity_torque(still) + 0.1 * np.sin(np.arange(200))[:, None]
+    record = hf.faults.Log(t=np.arange(200) / 100, q_ref=still, q=still, tau=torques)
     logs = {ending: record.save(root / f"log.{ending}").read_bytes() for ending in ("csv", "npz", "parquet")}
     bounds = root / "bounds.json"
     hf.diagnosis.calibrate(planar, [record]).to_json(bounds)
