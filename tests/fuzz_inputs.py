@@ -614,7 +614,7 @@ def kinds(root: Path) -> dict[str, Kind]:
 
     still = np.full((200, 3), 0.01)
     torques = planar.gravity_torque(still) + 0.1 * np.sin(np.arange(200))[:, None]
-    record = hf.faults.Log(t=np.arange(200) / 100, q_ref=still, q=still, tau=torques)
+    record = hf.faults.Log(t=np.arange(200) / 100, q_ref=still + 0.001 * np.sin(np.arange(200))[:, None], q=still, tau=torques)
     logs = {ending: record.save(root / f"log.{ending}").read_bytes() for ending in ("csv", "npz", "parquet")}
     bounds = root / "bounds.json"
     hf.diagnosis.calibrate(planar, [record]).to_json(bounds)
