@@ -34,6 +34,7 @@ from xml.etree import ElementTree
 import numpy as np
 import yaml
 
+import holdfast
 from holdfast.errors import HoldfastError
 from sealing import read_unsealed
 
@@ -45,7 +46,22 @@ MOST_LETTERS = 1500
 # What people and programs write where something else belongs.
 NUMBERS = (
     *("0", "-1", "1e308", "-1e308", "1e-320", "1e400", "nan", ".nan", "inf", "-.inf", "2e", "1_0", "0x1F", "017", "190:20:30"),
-    *(str(2**31), str(2**63), str(2**70), "9" * 30, "9" * 5000, "1." + "3" * 400, "0b", "0x", "1__2", "-0", "+"),
+    *(
+        str(2**31),
+        str(2**63),
+        str(2**70),
+        "9" * 30,
+        "9" * 5000,
+        "9" * 400,
+        "0x" + "f" * 5000,
+        ":".join(["59"] * 900),
+        "1." + "3" * 400,
+        "0b",
+        "0x",
+        "1__2",
+        "-0",
+        "+",
+    ),
 )
 YAML = (
     *("2026-02-30", "2026-02-30T25:61:61Z", "12:61:99", "!!int x", "!!int ''", "!!float x", "!!bool x", "!!timestamp x"),
@@ -99,7 +115,7 @@ PLACES = (
 )
 SIGNS = (
     *("", "<", ">", "&", "&lt;", "&#0;", "<!--", "]]>", "<![CDATA[", '"', "'", ",", ";", '""', "=1+1", "é", "\u202e", "\x00"),
-    *("\U0001f600", "\r", "\n", " " * 300),
+    *("\U0001f600", "\r", "\n", " " * 300, '"\\ud800"', "/*", "*/", "c" * 200_000),
 )
 NAMES = (
     *("joint1", "base", "world", "revolute", "fixed", "pose", "deg", "box", "panda", "planar-2r", "default", "single", "arm"),
@@ -107,7 +123,25 @@ NAMES = (
 )
 GROUPS = (NUMBERS, YAML, PLACES, SIGNS, NAMES)
 THINGS = (
-    *(None, True, False, 0, 1, -1, 2**31, 2**63, 2**70, -(2**70), 0.5, -0.0, 1e308, 1e-320, float("inf"), float("nan")),
+    *(
+        None,
+        True,
+        False,
+        0,
+        1,
+        -1,
+        2**31,
+        2**63,
+        2**70,
+        10**400,
+        -(2**70),
+        0.5,
+        -0.0,
+        1e308,
+        1e-320,
+        float("inf"),
+        float("nan"),
+    ),
     *(
         "",
         "x",
@@ -120,6 +154,7 @@ THINGS = (
         "1e-3",
         "\x00",
         "é",
+        "\ud800",
         [],
         {},
         [[]],
@@ -304,6 +339,41 @@ def of_table(data: bytes, rng: np.random.Generator) -> bytes:
     return out.getvalue().encode("utf-8", "surrogatepass")
 
 
+def of_numbers(data: bytes, rng: np.random.Generator) -> bytes:
+    """One number of a JSON file replaced by null, NaN, a negative or huge one, or another digit; or one list shortened."""
+    found = json.loads(data)
+    places = [place for place in _places(found) if isinstance(_entry(found, place), (int, float, list))]
+    *trail, key = places[rng.integers(len(places))]
+    block, value = _entry(found, tuple(trail)), _entry(found, (*trail, key))
+    others = (None, float("nan"), float("inf"), -1, 0, -1e308, 1e308, True, "1")
+    changed = value[:-1] if isinstance(value, list) else others[rng.integers(len(others))]
+    block[key] = changed  # type: ignore[index]
+    return json.dumps(found).encode()
+
+
+def _entry(data: object, trail: tuple[object, ...]) -> object:
+    for step in trail:
+        data = data[step]  # type: ignore[index]
+    return data
+
+
+def of_digits(data: bytes, rng: np.random.Generator) -> bytes:
+    """One decimal digit changed into another one."""
+    out = bytearray(data)
+    places = [k for k, byte in enumerate(out) if 48 <= byte <= 57]
+    if places:
+        at = places[rng.integers(len(places))]
+        out[at] = 48 + (out[at] - 48 + int(rng.integers(1, 10))) % 10
+    return bytes(out)
+
+
+def of_archive(data: bytes, rng: np.random.Generator) -> bytes:
+    """A file cut off, emptied, or with damaged bytes, as archives and Parquet files get damaged."""
+    if rng.random() < 0.2:
+        return data[: int(rng.choice([0, 1, len(data) // 2, len(data) - 1]))]
+    return of_bytes(data, rng)
+
+
 # ---- what is read ------------------------------------------------------------------------------------------------
 
 
@@ -364,12 +434,22 @@ CELLS = [
     b"  wedge: {mesh: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],"
     b" faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]}}\n",
 ]
+FAULTS = b"""seed: 7
+faults:
+  - {kind: locked, onset: {uniform: [0.3, 1.5]}, probability: 0.5}
+  - {kind: weak, joints: [joint2], gain: {uniform: [0.2, 0.7]}, onset: {exponential: 4.0}}
+  - {kind: friction, joints: [joint1], coulomb: 3.0, rate_per_hour: 0.5}
+"""
+FAILURE = b"locked: {joint2: 0.2}\nrange: {joint3: [0, 0.2]}\nspeed: {shoulder: 0.5}\n"
+RATES = b"rates: {joint1: 1.0e-5, joint2: 2.0e-5, joint3: 1.0e-5}\n"
+RECORD = sorted((Path(holdfast.__file__).parent / "designs" / "book" / "data").rglob("*.yaml"))[0]
 STUDIES = [
     b"name: two arms\nseed: 1\nposes: 200\nchunk: 50\narms: [planar-3r, {file: arm.yaml}]\n"
-    b"assess: {indices: [relative-manipulability, manipulability], tasks: [default, position], regions: [default, region.yaml],"
-    b" optimise: true, keep: rows, thresholds: {manipulability: 0.1}}\n"
+    b"assess: {indices: [relative-manipulability, manipulability], tasks: ['base:vx,vy'], regions: [default, region.yaml],"
+    b" optimise: true, keep: rows, thresholds: {manipulability: 0.1}}\n",
+    b"poses: 20\nchunk: 5\narms: [planar-3r]\n"
     b"convergence: {laws: [pseudoinverse, 'failure-tolerant:0.3'], motions: 20, chunk: 10, time_limit: 100}\n",
-    b"poses: 20\nchunk: 5\narms: [{arm: planar-3r, vary: {a3: [0.2, 0.6], alpha2: -90..90deg}, designs: 64}]\nassess: {}\n",
+    b"poses: 20\nchunk: 5\narms: [{arm: planar-3r, vary: {a3: [0.2, 1.2], alpha2: -90..90deg}, designs: 64}]\nassess: {}\n",
     b"poses: 20\nchunk: 5\narms: [planar-3r]\nworkspace: {laws: [pseudoinverse], targets: [[1, 1]], starts: 4}\n"
     b"bank: {laws: ['damped:0.05'], sets: 3, distance: 0.5}\n",
 ]
@@ -385,7 +465,10 @@ URDF = b"""<?xml version="1.0"?>
     <limit lower="0" upper="0.5" velocity="1" effort="10"/></joint>
   <joint name="j3" type="continuous"><parent link="lower"/><child link="tip"/><origin xyz="0.2 0 0"/><axis xyz="0 1 0"/></joint>
   <joint name="j4" type="prismatic"><parent link="upper"/><child link="finger"/><axis xyz="1 0 0"/>
-    <limit lower="0" upper="0.04" velocity="1" effort="10"/><mimic joint="j2" multiplier="2" offset="0.1"/></joint>
+    <limit lower="0" upper="0.04" velocity="1" effort="10"/><mimic joint="j5" multiplier="2" offset="0.01"/></joint>
+  <link name="finger2"/>
+  <joint name="j5" type="prismatic"><parent link="upper"/><child link="finger2"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.04" velocity="1" effort="10"/></joint>
 </robot>
 """
 MJCF = b"""<mujoco model="toy">
@@ -420,6 +503,7 @@ SCENE = b"""<robot name="bench">
 </robot>
 """
 POSES = b"x,y,z,qx,qy,qz,qw,weight\n0,0,1,0,0,0,1,1\n0.5,0,1,0,0,0,1,2\n0.5,0.5,1,0,0,0,1,0.5\n"
+TURNED = b"x,y,z,qx,qy,qz,qw\n0,0,1,0,0,0,1\n0.5,0,1,0,0,0,1\n0.5,0.5,1,0,0,0,1\n"
 PLAIN = b"x,y,z\n0,0,1\n0.5,0,1\n0.5,0.5,1\n"
 MOTION = b"time_s,joint1_rad,joint2_rad,joint3_rad\n0,0.1,0.2,0.3\n0.5,0.2,0.3,0.4\n1,0.3,0.4,0.5\n"
 
@@ -476,6 +560,8 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.cell import Mesh, Points
     from holdfast.clearance import Capsules
     from holdfast.cli.values import read_weights
+    from holdfast.designs.book.entries import read as read_record
+    from holdfast.endurance.rates import FailureRates
     from holdfast.engine import Threads
     from holdfast.engine.memory import BEFORE, FILE, Memory
     from holdfast.paths.path import in_file as read_path
@@ -527,6 +613,24 @@ def kinds(root: Path) -> dict[str, Kind]:
         found = load(run)
         return found.distribution, found.default_threshold, found.store.missing, found.store.dataset()  # type: ignore[union-attr]
 
+    still = np.full((200, 3), 0.01)
+    torques = planar.gravity_torque(still) + 0.1 * np.sin(np.arange(200))[:, None]
+    record = hf.faults.Log(t=np.arange(200) / 100, q_ref=still + 0.001 * np.sin(np.arange(200))[:, None], q=still, tau=torques)
+    logs = {ending: record.save(root / f"log.{ending}").read_bytes() for ending in ("csv", "npz", "parquet")}
+    bounds = root / "bounds.json"
+    hf.diagnosis.calibrate(planar, [record]).to_json(bounds)
+
+    def table(ending: str) -> Callable[[bytes, np.random.Generator], bytes]:
+        return of_table if ending == "csv" else of_archive
+
+    def bounds_of(path: Path) -> object:
+        found = hf.diagnosis.load(path)
+        for name in ("torque", "change", "tracking", "scales", "speed"):
+            values = np.asarray(getattr(found, name), dtype=np.float64)
+            assert values.shape == (len(found.joints),), f"accepted {name} of {values.shape}"
+            assert (values >= 0).all(), f"accepted {name} of {values}"  # NaN is not
+        return found
+
     def one(file: Path, structure: Callable[[bytes, np.random.Generator], bytes], read: Callable[[Path], object]) -> Kind:
         return Kind([file.read_bytes()], structure, read, file)
 
@@ -547,16 +651,23 @@ def kinds(root: Path) -> dict[str, Kind]:
             lambda path: Points("scan", path, radius=0.01).centres.sum(),
             root / "in.npy",
         ),
+        "fault model": Kind([FAULTS], of_yaml, hf.faults.load, root / "in.yaml"),
+        "failure": Kind([FAILURE], of_yaml, lambda path: hf.Degraded.load(path, toy), root / "in.yaml"),
+        "failure rates": Kind([RATES], of_yaml, lambda path: FailureRates.load(planar, path), root / "in.yaml"),
+        "design record": Kind([RECORD.read_bytes()], of_yaml, read_record, root / "in.yaml"),
+        **{f"log in {x}": Kind([data], table(x), hf.faults.Log.load, root / f"in.{x}") for x, data in logs.items()},
+        "bounds": Kind([bounds.read_bytes()], of_numbers, bounds_of, root / "in.json"),
         "study": Kind(STUDIES, of_yaml, read_study, root / "in.yaml"),
         "protocol": Kind([teleop.read_protocol().text().encode()], of_yaml, teleop.read_protocol, root / "in.yaml"),
         "texts": Kind([texts.ENGLISH.read_bytes()], of_yaml, texts.read, root / "in.yaml"),
         "URDF": Kind([URDF], of_xml, arm_of, root / "in.urdf"),
         "MJCF": Kind([MJCF], of_xml, arm_of, root / "in.mjcf"),
         "poses": Kind([POSES], of_table, PoseList.read, root / "in.csv"),
-        "waypoints of a path": Kind([PLAIN, POSES], of_table, pose_table, root / "in.csv"),
+        "waypoints of a path": Kind([PLAIN, TURNED], of_table, pose_table, root / "in.csv"),
         "waypoints": Kind([MOTION], of_table, lambda path: read_waypoints(planar, path), root / "in.csv"),
         "motion": Kind([MOTION], of_table, lambda path: read_motion(planar, path), root / "in.csv"),
         "weights": Kind([b"1,2,3\n4,5,6\n7,8,9\n"], of_table, lambda path: read_weights("--w", str(path)), root / "in.csv"),
+        "digits of run.json": one(run / "run.json", of_digits, run_of),
         "run.json": one(run / "run.json", of_json, run_of),
         "attributes of a group": one(run / "samples.zarr" / "zarr.json", of_json, run_of),
         "attributes of an array": one(run / "samples.zarr" / "index" / "zarr.json", of_json, run_of),

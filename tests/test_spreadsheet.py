@@ -1,12 +1,14 @@
 """Tables for spreadsheets: the numbers are those of pandas, and nothing is a formula."""
 
+import csv
 import io
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from holdfast.files.spreadsheet import cell, csv_text
+from holdfast.files.output import write_table
+from holdfast.files.spreadsheet import cell, csv_text, read_cell
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "-", "="])
@@ -27,3 +29,13 @@ def test_tables_are_those_of_pandas(rng, missing):
     numbers = pd.DataFrame({"trial": np.arange(len(values)), "x, m": values, "y": values[::-1]})
     for table in (numbers, numbers.assign(law="pseudoinverse"), numbers.head(0)):
         assert csv_text(table, missing) == table.to_csv(index=False, na_rep=missing, lineterminator="\n")
+
+
+def test_names_in_the_head_of_a_table_are_cells(tmp_path):
+    """Commas, quotes, and formulas in names leave the number of columns as it is, by the csv module."""
+    names = ["time_s", 'a,b"c_rad', "=1+1_rad", "-x_m"]
+    file = write_table(tmp_path / "t.csv", "motion", names, np.arange(8.0).reshape(2, 4))
+    head, *rows = csv.reader(file.read_text(encoding="utf-8").splitlines())
+    assert head == ["time_s", 'a,b"c_rad', "'=1+1_rad", "'-x_m"]
+    assert [read_cell(text) for text in head] == names
+    assert rows == [["0", "1", "2", "3"], ["4", "5", "6", "7"]]

@@ -18,6 +18,11 @@ TRIPS = {
     "no time": "a: !!timestamp x",
     "no list of pairs": "a: !!pairs [x]",
     "too many digits": f"a: {'9' * 5000}",
+    "too many hexadecimal digits": f"a: 0x{'f' * 5000}",
+    "too many digits in base 60": "a: " + ":".join(["59"] * 3000),
+    "beyond 2^63": f"a: {2**63 + 1}",
+    "below -2^63": f"a: {-(2**63) - 1}",
+    "half of a surrogate pair": 'a: "\\ud800"',
     "a key that is a list": "? [1, 2]\n: 3",
     "a key that is a block": "? {a: 1}\n: 3",
     "an alias of nothing": "a: *b",
@@ -38,7 +43,14 @@ def test_what_trips_the_parser_is_a_sentence(case):
 
 @pytest.mark.parametrize(
     "text",
-    ["a: [1, {b: c}, 2.5]\n", "a: 1\nb: &x {c: 2}\nd: *x\ne: {<<: *x, f: 3}\n", "", "- 1\n- no\n", "word"],
+    [
+        f"a: [{2**63}, {-(2**63)}, 0xff, 1_000, 1:30]\n",
+        "a: [1, {b: c}, 2.5]\n",
+        "a: 1\nb: &x {c: 2}\nd: *x\ne: {<<: *x, f: 3}\n",
+        "",
+        "- 1\n- no\n",
+        "word",
+    ],
 )
 def test_sound_yaml_is_as_pyyaml_reads_it(text):
     assert parse(text) == yaml.safe_load(text)
