@@ -9,6 +9,7 @@ from scipy.linalg import expm
 import holdfast as hf
 from holdfast.diagnosis import rehearsal
 from holdfast.errors import ArmError
+from holdfast.faults import FaultEvent
 from holdfast.physics.plant import Plant
 from holdfast.reaction import loop
 
@@ -42,9 +43,9 @@ def rehearsed_cycle(arm, q, body):
     return cycle, robot.stiffness, robot.damping
 
 
-def reacting_robot(arm, q, body):
+def reacting_robot(arm, q, body, faults=()):
     law = hf.control.damped(arm, 0.02, task="planar" if arm.n < 4 else "position")
-    given = {"faults": (), "episode": 0, "horizon": 1.0, "seed": 0, "pose": False}
+    given = {"faults": faults, "episode": 0, "horizon": 1.0, "seed": 0, "pose": False}
     return loop._Robot(law, q, body, hf.Servos(rate=1000.0), **given)
 
 
@@ -141,3 +142,19 @@ def test_a_healthy_robot_needs_a_few_newton_metres(name):
     assert (np.abs(beyond_gravity) < np.maximum(0.2 * effort, 4.0)).all()
     assert (np.diff(log.tau, axis=0).std(axis=0) / np.sqrt(2) < 0.02 * effort).all()
     assert np.abs(log.q - log.q_ref).max() < 3e-3
+
+
+def test_a_weak_motor_is_asked_for_no_more_than_its_effort():
+    """Its recorded torque times the share that it gives is what moved the joint, also where the drive is at its limit."""
+    arm = hf.arms.load("panda")
+    body = hf.Body(mismatch=0.0, viscous=0.0, **SILENT)
+    q, rates = np.array([0.3, -0.4, 0.5, -1.8, 0.2, 1.7, 0.4]), np.array([0.0, 2.0, 0, 0, 0, 0, 0])
+    robot = reacting_robot(arm, q, body, faults=[FaultEvent("weak", "panda_joint2", 0.0, parameters={"gain": 0.25})])
+    told, _ = robot.sense(0)
+    torque = robot.move(told, rates, np.ones(7))
+    effort = arm.joints[1].effort
+    assert 0.8 * effort < torque[1] <= effort  # the rate that it reaches in the cycle takes something off
+    acceleration = robot.data.qvel * 1000.0
+    rotors = np.array([joint.armature or body.rotor for joint in arm.joints])
+    moved = arm.inverse_dynamics(q, np.zeros(7), acceleration) + rotors * acceleration
+    assert moved[1] == pytest.approx(0.25 * torque[1], rel=0.05)

@@ -213,7 +213,8 @@ def _run_cycles(arm: Arm, robots: Sequence[_Robot]) -> tuple[Array, Array, Array
     rates[-1] = rates[max(-2, -count)]  # the motion goes on after the record
     measured, commands, true = np.empty_like(reference), np.empty_like(reference), np.empty((count + 1, len(robots), n))
     gravity = arm._gravity_torque_kernel.single() if len(robots) == 1 else arm._gravity_torque_kernel.rows
-    places, happening = [robot.data.qpos for robot in robots], [robot for robot in robots if robot.happens]
+    places, speeds = [robot.data.qpos for robot in robots], [robot.data.qvel for robot in robots]
+    happening = [robot for robot in robots if robot.happens]
     moved = [(robot.model, robot.data, robot.data.ctrl) for robot in robots]
     for k in each("control cycles", range(count), every=1000):
         for robot in happening:
@@ -224,7 +225,9 @@ def _run_cycles(arm: Arm, robots: Sequence[_Robot]) -> tuple[Array, Array, Array
         for r, robot in enumerate(robots if happening else ()):
             q[r] = robot.injector.read(now[r], reference=reference[k, r]) + noise[k, r]
         drives.sense(q, now)
-        commands[k] = drives.command(reference[k], rates[k], q, gravity(q.reshape(-1) if len(robots) == 1 else q))
+        torque = gravity(q.reshape(-1) if len(robots) == 1 else q)
+        velocity = np.concatenate(speeds).reshape(q.shape)
+        commands[k] = drives.command(reference[k], rates[k], q, gravity=torque, velocity=velocity)
         for (model, data, control), row, robot in zip(moved, commands[k], robots, strict=True):
             control[:] = row
             if robot.happens:

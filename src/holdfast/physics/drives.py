@@ -42,9 +42,15 @@ class Drives:
         self.rate_error = self.rate_error + self._share * ((error - self._error) / self._period - self.rate_error)
         self._error = error
 
-    def command(self, reference: Array, rates: Array, measured: Array, gravity: Array) -> Array:
-        """Compute what the position loop asks of the motors (..., n), N m and N, before the velocity loops subtract theirs."""
-        return self.stiffness * (reference - measured) + self.damping * (rates - self.rate_error) + gravity
+    def command(self, reference: Array, rates: Array, measured: Array, *, gravity: Array, velocity: Array) -> Array:
+        """Compute the controls (..., n) of the motors, N m and N, from which the drives subtract ``D`` times the velocity.
+
+        The drive limits the sum to the effort before the motor makes a torque of it, so a weak motor is asked for no more
+        than a healthy one.
+        """
+        asked = self.stiffness * (reference - measured) + self.damping * (rates - self.rate_error) + gravity
+        damped = self.damping * velocity
+        return np.minimum(np.maximum(asked, damped - self._effort), damped + self._effort)
 
     def torque(self, command: Array, moved: Array) -> Array:
         """Compute the mean torque (..., n) of a cycle, N m and N, in which the joints moved (..., n), rad and m."""

@@ -208,7 +208,9 @@ class _Robot:
         inside = np.clip(ahead, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
         self.reference = np.where(mask > 0, inside, q)
         self.gravity = self.gravity_of(q)
-        self.data.ctrl[:] = command = self.drives.command(self.reference, rates, q, self.gravity)
+        velocity = self.data.qvel
+        command = self.drives.command(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
+        self.data.ctrl[:] = command
         self.injector.before_step(self.injector.time)
         before = self.data.qpos.copy()
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)

@@ -33,7 +33,7 @@ def expected_delays(
     Raises:
         InputError: Another number of joints, or an onset beyond the motion.
 
-    Source: derived here. What friction and a healthy lag add is left out: measured delays are 0.6 to 1.6 times these.
+    Source: derived here. What friction and a healthy lag add is left out: measured delays are 0.6 to 1.2 times these.
     """
     motion, dt = np.asarray(reference, dtype=np.float64), 1 / bounds.rate
     n = len(bounds.joints)
