@@ -56,7 +56,6 @@ def check_numbers(
     tolerance: tuple[float, float] | None,
     period: float,
     margin: float,
-    within: float | None = None,
 ) -> None:
     """Check the numbers of a recovery; counts come with the least that each may be.
 
@@ -74,11 +73,6 @@ def check_numbers(
         raise InputError(f"period is {period}; it must be above 0, in seconds")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin}; it must be a finite number of metres")
-    if within is not None and not NARROWEST <= within < np.pi:
-        raise InputError(
-            f"within is {within:g} rad; it must be from {NARROWEST:g} rad to below pi (180 deg); for a single direction use "
-            "task='pointing'"
-        )
 
 
 class Trouble(NamedTuple):
@@ -110,7 +104,7 @@ def task_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None
     Next to the tilt of a goal with ``within`` (rad) the position counts.
     """
     if within is not None:
-        return _position_of(arm, task, path)
+        return _position_of(arm, task, path, within)
     if task is not None:
         return as_task(arm, task)
     flat = plane_normal(arm) is not None
@@ -118,12 +112,17 @@ def task_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None
     return as_task(arm, "planar" if flat else "pose" if whole else "position")
 
 
-def _position_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None) -> Task:
+def _position_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None, within: float) -> Task:
     """Return the rows that count next to the tilt of a goal with ``within``: the position.
 
     Raises:
-        InputError: There is a tool path, or a task without the whole position.
+        InputError: The angle is out of bounds, there is a tool path, or the task does not prescribe the whole position.
     """
+    if not NARROWEST <= within < np.pi:
+        raise InputError(
+            f"within is {within:g} rad; it must be from {NARROWEST:g} rad to below pi (180 deg); for a single direction use "
+            "task='pointing'"
+        )
     if path is not None:
         raise InputError("within is of a goal, and a tool path has rows of its own; leave out within or the path")
     position = as_task(arm, "planar" if plane_normal(arm) is not None else "position")

@@ -129,7 +129,7 @@ def recover(
     if not single:
         raise InputError(f"at has shape {np.shape(at)}; give one configuration of {arm.n} numbers")
     counts = {"samples": (samples, 0), "starts": (starts, 1), "tries": (tries, 0), "seed": (seed, 0)}
-    check_numbers(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin, within=within)
+    check_numbers(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin)
     start = q[0]
     degraded = degraded_at(arm, locked, start)
     if degraded is None:
