@@ -86,7 +86,7 @@ def test_a_place_out_of_reach_is_proved_for_every_orientation(leaning):
 
 def test_the_least_tilt_of_a_panda_is_that_of_an_optimiser():
     arm, at = hf.arms.load("panda"), np.array([0.3, 0.2, 0.1, -2.0, 0.1, 2.0, 0.5])
-    healthy = at + [0.5, 0.3, 0.0, -0.3, 0.5, -0.4, 0.2]
+    healthy = at + np.array([0.5, 0.3, 0.0, -0.3, 0.5, -0.4, 0.2])
     goal = arm.forward_kinematics(healthy)
     free = [0, 1, 2, 4, 5, 6]
 

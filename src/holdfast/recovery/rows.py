@@ -100,7 +100,7 @@ def _log_slope(phi: SX) -> SX:
 
 
 def _tilt(axis: SX, wanted: SX, within: float) -> tuple[SX, SX]:
-    """The angle between two unit vectors (3,) beyond ``within`` (rad), and what its decrease is per angular velocity (3,) of axis.
+    """Return the angle between unit vectors (3,) beyond ``within`` (rad), and its decrease (1, 3) per angular velocity of axis.
 
     Both are 0 inside the cone. The solver aims at a cone that is narrower by its tolerance, so that what it takes as met is
     within the angle.
