@@ -205,7 +205,7 @@ class Execution(Result):
             joint = self.arm.joints[self.arm.joint_index(self.exceeded[0])]
             factor, unit = joint.shown
             limit = factor * self.error_limit[joint.prismatic]
-            found.append(f"the following error first exceeds {limit:.4g} {unit} at {self.exceeded[1]:.4g} s, of {joint.name}")
+            found.append(f"the following error first exceeds {limit:.4g} {unit} at {self.exceeded[1]:.4g} s, in {joint.name}")
         return found + [contact.sentence() for contact in self.contacts or ()]
 
     def describe(self) -> list[str]:
