@@ -171,7 +171,7 @@ class Execution(Result):
 
     @cached_property
     def tool_error(self) -> tuple[Array, Array]:
-        """Distance (T,) of the tool point from where the motion has it, m, and the angle (T,) between the two tools, rad."""
+        """Distance (T,) between the measured and the planned tool point, m, and the angle (T,) between the two tools, rad."""
         planned = self.arm.forward_kinematics(self.planned)
         turned = rotation_vectors(self.poses[:, :3, :3] @ planned[:, :3, :3].transpose(0, 2, 1))
         return np.linalg.norm(self.poses[:, :3, 3] - planned[:, :3, 3], axis=1), np.linalg.norm(turned, axis=1)
