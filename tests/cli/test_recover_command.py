@@ -245,3 +245,22 @@ def test_what_is_kept_on_the_way(cli, tmp_path):
     code, _, err = cli(*call, "--keep", "upwards:3")
     assert code == 2
     assert "use one of upright, rail, plane" in err
+
+
+def test_a_goal_in_a_cone_is_met_by_an_arm_that_cannot_turn_its_tool(cli):
+    call = ["recover", "panda", "--lock", "4=-2", "--at", "0.3 0.2 0.1 -2 0.1 2 0.5", "--samples", "0", "--goal"]
+    goal = "pose:0.4,0.3,0.5,150,20,40"
+    code, text, _ = cli(*call, goal, "--within", "30deg", "--json")
+    found = json.loads(text)
+    assert (code, found["ok"], found["within"]) == (0, True, pytest.approx(np.deg2rad(30)))
+    end = oracles.forward(hf.arms.load("panda"), np.array(found["waypoints"])[-1:])[0]
+    from scipy.spatial.transform import Rotation
+
+    axis = Rotation.from_euler("xyz", [150, 20, 40], degrees=True).apply([0, 0, 1])
+    np.testing.assert_allclose(end[:3, 3], [0.4, 0.3, 0.5], atol=1e-6)
+    assert np.rad2deg(np.arccos(end[:3, 2] @ axis)) <= 30
+    for wrong, sentence in (("30", "no unit"), ("1deg,2deg", "2 numbers"), ("300deg", "below pi")):
+        code, _, error = cli(*call, goal, "--within", wrong)
+        assert (code, sentence in error) == (2, True), error
+    code, _, error = cli(*call, "pose:0.4,0.3,0.5", "--within", "30deg")
+    assert (code, "no orientation" in error) == (2, True)

@@ -67,6 +67,20 @@ def test_any_joint_is_one_of_the_arm_and_a_finger_has_no_verdict(arm):
     assert (info["fault"]["feasible"], info["fault"]["why"]) == ("unknown", "'finger' is not a joint of the arm")
 
 
+def test_a_goal_that_is_tilted_out_of_the_plane_is_feasible_in_a_wide_enough_cone(arm):
+    reach, tilt = float(arm.forward_kinematics(np.zeros(2))[0, 3]), np.deg2rad(20)
+    goal = np.eye(4)
+    goal[:2, 3] = reach * np.cos(0.3), reach * np.sin(0.3)  # with the second joint locked at 0
+    goal[:3, :3] = [[1, 0, 0], [0, np.cos(tilt), -np.sin(tilt)], [0, np.sin(tilt), np.cos(tilt)]]
+    answers = []
+    for within in (np.deg2rad(19), np.deg2rad(21)):
+        lock = FaultEvent("locked", arm.joint_names[1], 0.0)
+        wrapped = FaultWrapper(Gripper(arm.joint_names), [lock], arm=arm, goal=lambda env: goal, within=within, tolerance=1e-3)
+        wrapped.reset()
+        answers.append(wrapped.step(np.zeros(3))[-1]["fault"]["feasible"])
+    assert answers == ["not found", "yes"]
+
+
 def test_a_fault_of_a_later_episode_is_refused_when_the_wrapper_is_made(arm):
     env = Gripper(arm.joint_names)
     rare = hf.faults.Faults([hf.faults.locked("finger", probability=1e-9)])

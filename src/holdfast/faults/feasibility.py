@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
 from holdfast.faults.entry import SENSOR
 from holdfast.faults.events import FaultEvent
 from holdfast.reach import reachable_when_locked
 from holdfast.recovery import recover
+from holdfast.recovery.question import task_of
+from holdfast.recovery.rows import row_solver
 from holdfast.solvers import solve_ik
 
 Array = NDArray[np.float64]
@@ -50,6 +52,7 @@ def feasible(
     places: Mapping[FaultEvent, float],
     *,
     task: str | Task | None = None,
+    within: float | None = None,
     at: ArrayLike | None = None,
     brakes: bool = True,
     restarts: int = 100,
@@ -67,6 +70,8 @@ def feasible(
         goal: (3,) position or (4, 4) pose of the tool in the world, m.
         places: The faults that are there, with where their joints were at the onset, rad or m.
         task: Rows of the pose that matter; position or pose by the goal if not given.
+        within: Angle in rad by which the tool's z axis may be off that of the pose, any turn about it allowed; see
+            :func:`holdfast.recover`.
         at: (n,) where the arm is, rad and m; None: a configuration at the goal is enough.
         brakes: Whether the joints have brakes.
         restarts: Random starts of the search.
@@ -79,7 +84,10 @@ def feasible(
     where = np.asarray(goal, dtype=np.float64)
     if where.shape not in ((3,), (4, 4)):
         raise InputError(f"goal has shape {where.shape}; it must be a position (3,) or a pose (4, 4), m")
+    if within is not None and where.ndim == 1:
+        raise InputError("within is about the tool's z axis, and the goal is a position (3,); give a pose (4, 4), m")
     rows = task or ("position" if where.ndim == 1 else "pose")
+    rows = rows if within is None else task_of(arm, rows, None, within)
     pose = np.eye(4)
     pose[: len(where), 3 if where.ndim == 1 else slice(None)] = where
     held = {e.joint: _within(arm, e.joint, x) for e, x in places.items() if e.kind in _LOCKS or (brakes and e.kind in _BRAKED)}
@@ -91,18 +99,25 @@ def feasible(
     if weak and held:
         return Feasibility("unknown", "locks and weak motors together are not looked at")
     if weak:
-        return _carried(arm, pose, rows, weak, tolerance)
+        return _carried(arm, pose, rows, within, weak, tolerance)
     ranges = {e.joint: _range(arm, e, places[e]) for e in left if e.kind == "reduced_range"}
     parts = [f"{joint} locked" for joint in held] + [f"{joint} within its reduced range" for joint in ranges]
     what = f"with {' and '.join(parts)}" if parts else "by the healthy arm"
     if not 0 < tolerance <= 1:
         raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if at is not None and parts:
-        recovered = _recovered(arm, Degraded(arm, locked=held, ranges=ranges), at, goal=pose, rows=rows, what=what)
+        left_over = Degraded(arm, locked=held, ranges=ranges)
+        recovered = _recovered(arm, left_over, at, goal=pose, within=within, rows=rows, what=what)
         unproved = recovered.answer == "no" and tolerance > _EXACT
         return replace(recovered, answer="not found") if unproved else recovered
     if held and ranges:
         return Feasibility("unknown", "locks and reduced ranges together need where the arm is: give at")
+    if within is not None:
+        left_over = Degraded(arm, locked=held, ranges=ranges) if parts else None
+        tilted = _in_cone(arm, left_over, pose, as_task(arm, rows), within, restarts, tolerance)
+        if not len(tilted):
+            return Feasibility("not found", f"no configuration of the goal was found {what}")
+        return Feasibility("yes", f"the goal is reached {what}", tilted[0])
     if held:
         locked = held if len(held) == 1 else Degraded(arm, locked=held)
         found = reachable_when_locked(arm, pose, locked, task=rows, restarts=restarts, tolerance=tolerance)
@@ -130,9 +145,20 @@ def _range(arm: Arm, event: FaultEvent, place: float) -> tuple[float, float]:
     return max(low, joint.lower), min(high, joint.upper)
 
 
-def _recovered(arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, rows: str | Task, what: str) -> Feasibility:
+def _in_cone(arm: Arm, left: Degraded | None, goal: Array, rows: Task, within: float, restarts: int, tolerance: float) -> Array:
+    """Search configurations (K, n) of a goal (4, 4) that leaves the tool's z axis an angle (rad), from random starts."""
+    limited, at, free = (arm, np.zeros(arm.n), np.ones(arm.n, bool)) if left is None else (left.limited, left.lo, left.moves)
+    solver = row_solver(arm, rows, within).within(limited)
+    poses = np.repeat(goal[None], restarts, axis=0)
+    q = solver.run(solver.starts(restarts, at, free, np.random.default_rng(0)), poses, np.ones((restarts, solver.rows.m)), free)
+    return q[(np.abs(solver.errors(q, poses)) <= tolerance).all(axis=1)]
+
+
+def _recovered(
+    arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, within: float | None, rows: str | Task, what: str
+) -> Feasibility:
     """By a motion of the arm as it is now, or a proof that there is none."""
-    found = recover(arm, left, at, goal=goal, task=rows, samples=0, clearance=False)
+    found = recover(arm, left, at, goal=goal, within=within, task=rows, samples=0, clearance=False)
     if found.ok:
         return Feasibility("yes", f"a motion to the goal was found {what}", np.asarray(found.q[-1]))
     if found.verdict.kind == "start":
@@ -142,10 +168,15 @@ def _recovered(arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, rows: st
     return Feasibility("not found", f"no motion to the goal was found {what}: {found.verdict.why}")
 
 
-def _carried(arm: Arm, goal: Array, task: str | Task, gains: Mapping[str, float], tolerance: float) -> Feasibility:
+def _carried(
+    arm: Arm, goal: Array, task: str | Task, within: float | None, gains: Mapping[str, float], tolerance: float
+) -> Feasibility:
     """Whether weak motors hold the arm against gravity in some configuration of the goal."""
-    found = solve_ik(arm, np.repeat(goal[None], _CONFIGURATIONS, axis=0), task=task, restarts=4, tolerance=tolerance)
-    q = found.q[found.success]
+    if within is None:
+        found = solve_ik(arm, np.repeat(goal[None], _CONFIGURATIONS, axis=0), task=task, restarts=4, tolerance=tolerance)
+        q = found.q[found.success]
+    else:
+        q = _in_cone(arm, None, goal, as_task(arm, task), within, _CONFIGURATIONS, tolerance)
     if not len(q):
         return Feasibility("not found", "no configuration of the goal was found by the healthy arm")
     joints = [arm.joint_index(joint) for joint in gains]

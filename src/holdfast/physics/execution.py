@@ -47,11 +47,13 @@ class Execution(Result):
         q: (T, n) measured configuration, rad and m.
         rates: (T, n) measured, rad/s and m/s.
         reference: (T, n) what the servos are to follow, rad and m.
+        planned: (T, n) where the motion has the joints, rad and m; slowed down once a lock is noticed.
         torque: (T, n) of the motors of healthy joints, gravity compensation included, N m and N; 0 for a locked joint.
         goal: (4, 4) or (3,) where the tool should be at the end, m, world; None if nothing was asked for.
         keep: What should be kept at every instant.
         contacts: First of each link with each object of the cell, in order of time; None without a cell.
         cell: The objects around the arm; None without.
+        error_limit: Largest allowed distance of a joint from the motion, rad and m; None: none was given.
     """
 
     arm: Arm
@@ -66,11 +68,13 @@ class Execution(Result):
     q: Array
     rates: Array
     reference: Array
+    planned: Array
     torque: Array
     goal: Array | None = None
     keep: tuple[Kept, ...] = ()
     contacts: tuple[Contact, ...] | None = None
     cell: Cell | None = None
+    error_limit: tuple[float, float] | None = None
 
     @property
     def at(self) -> Array:
@@ -151,6 +155,27 @@ class Execution(Result):
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
         return lag(self.q, self.reference, self.locked)
 
+    @cached_property
+    def following_error(self) -> Array:
+        """(T, n) distance of each joint from the motion, rad or m, locked joints too."""
+        return np.abs(self.q - self.planned)
+
+    @cached_property
+    def exceeded(self) -> tuple[str, float] | None:
+        """The joint that first exceeds the limit of the following error, by name, and when, s; None if none does."""
+        if self.error_limit is None:
+            return None
+        share = self.following_error / np.where(self.arm.prismatic, self.error_limit[1], self.error_limit[0])
+        late = np.flatnonzero((share > 1).any(axis=1))
+        return (self.arm.joint_names[int(share[late[0]].argmax())], float(self.time[late[0]])) if late.size else None
+
+    @cached_property
+    def tool_error(self) -> tuple[Array, Array]:
+        """Distance (T,) between the measured and the planned tool point, m, and the angle (T,) between the two tools, rad."""
+        planned = self.arm.forward_kinematics(self.planned)
+        turned = rotation_vectors(self.poses[:, :3, :3] @ planned[:, :3, :3].transpose(0, 2, 1))
+        return np.linalg.norm(self.poses[:, :3, 3] - planned[:, :3, 3], axis=1), np.linalg.norm(turned, axis=1)
+
     @property
     def saturated(self) -> Array:
         """(n,) share of the time for which the motor of each joint was at its effort while the joint was healthy."""
@@ -160,7 +185,7 @@ class Execution(Result):
     def ok(self) -> bool:
         """The motion was finished, the tool is at the goal, everything was kept, limits too, and nothing was touched."""
         whole = self.outcome == "finished" and self.there and not self.broken
-        return whole and not self.beyond_limits and not self.too_fast and not self.contacts
+        return whole and not self.beyond_limits and not self.too_fast and not self.contacts and self.exceeded is None
 
     def require_ok(self) -> Execution:
         """Itself, or :class:`holdfast.HoldfastError` with what went wrong."""
@@ -176,6 +201,11 @@ class Execution(Result):
         found += [f"the tool was {trouble}" for trouble in self.broken]
         found += [f"{name} was {x:.3g} {self._unit(name)} outside its limits" for name, x in self.beyond_limits.items()]
         found += [f"{name} moved at {x:.4g} {self._unit(name)}/s, too fast" for name, x in self.too_fast.items()]
+        if self.exceeded is not None and self.error_limit is not None:
+            joint = self.arm.joints[self.arm.joint_index(self.exceeded[0])]
+            factor, unit = joint.shown
+            limit = factor * self.error_limit[joint.prismatic]
+            found.append(f"the following error first exceeds {limit:.4g} {unit} at {self.exceeded[1]:.4g} s, in {joint.name}")
         return found + [contact.sentence() for contact in self.contacts or ()]
 
     def describe(self) -> list[str]:
@@ -190,6 +220,11 @@ class Execution(Result):
             lines.append(f"the controller noticed at {self.noticed:.4g} s and slowed down")
         if self.goal is not None:
             lines.append(f"the tool is {self._miss()} off the goal")
+        away, angle = (np.stack([error.max(), error[-1]]) for error in self.tool_error)
+        most, last = (f"{hardly(1000 * away[k])} mm and {hardly(np.rad2deg(angle[k]))} deg" for k in (0, 1))
+        lines.append(f"the tool is at most {most} off the motion, at the end {last}")
+        if self.error_limit is not None and self.exceeded is None:
+            lines.append("the following error keeps its limit in every joint")
         for one, (off, turned) in zip(self.keep, self.kept, strict=True):
             said = [f"{1000 * off:.3g} mm off"] * bool(len(one.normals))
             said += [f"{np.rad2deg(turned):.3g} deg turned away"] * bool(np.isfinite(one.widest))

@@ -14,7 +14,7 @@ from holdfast.arm.poses import check_poses
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
-from holdfast.failures import Degraded, Locked, degraded_at
+from holdfast.failures import Degraded, Locked, degraded_at, read_locks
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import each, says
 from holdfast.physics.execution import Ended, Execution
@@ -45,6 +45,7 @@ def execute(
     keep: KeepLike | None = None,
     servos: Servos | None = None,
     settle: float = 0.5,
+    error_limit: tuple[float, float] | None = None,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
 ) -> Execution:
@@ -70,6 +71,8 @@ def execute(
         keep: What the tool should keep at every instant; see :func:`holdfast.recover`. "At the start" is where ``q`` begins.
         servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
         settle: s that are simulated after the end of the motion, or after the arm has been stopped.
+        error_limit: Largest allowed distance of a joint from the motion, rad and m; ``exceeded`` of the result contains the
+            first joint that is farther off.
         clearance: The shape of the arm, with a cell or beside one.
         cell: Objects around the arm, or their file, which it touches and pushes against.
 
@@ -86,7 +89,10 @@ def execute(
         if not 0 <= number <= LONGEST:
             raise InputError(f"{name} is {number:g} s; it must be from 0 to {LONGEST:g} s")
     degraded = degraded_at(arm, locked, way[0])
-    locks = _lock_times(arm, degraded, lock_time, way[0])
+    order = [arm.joint_names[k] for k in read_locks(arm, locked)] if not isinstance(locked, Degraded) else list(locked.locked)
+    locks = _lock_times(arm, degraded, order, lock_time, way[0])
+    if error_limit is not None and not (len(error_limit) == 2 and all(limit > 0 for limit in error_limit)):
+        raise InputError(f"error_limit is {error_limit}; give two numbers above 0, in rad and m")
     if notice is not None and not np.isfinite(locks).any():
         raise InputError("notice has nothing to notice: no joint locks; give locked")
     noticed = np.inf if notice is None else float(locks.min()) + notice
@@ -117,11 +123,13 @@ def execute(
         q=notes.q,
         rates=notes.rates,
         reference=notes.reference,
+        planned=wanted[: len(notes.q)],
         torque=notes.torque,
         goal=_goal(goal),
         keep=all_kept(keep, arm.forward_kinematics(way[0])),
         contacts=touches.contacts(),
         cell=None if around is None else around.cell,
+        error_limit=error_limit,
     )
 
 
@@ -143,8 +151,8 @@ def _motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[Array, Array]:
     return way, seconds - seconds[0]
 
 
-def _lock_times(arm: Arm, degraded: Degraded | None, lock_time: ArrayLike, start: Array) -> Array:
-    """(n,) when each joint locks, s; infinite for those that do not."""
+def _lock_times(arm: Arm, degraded: Degraded | None, order: list[str], lock_time: ArrayLike, start: Array) -> Array:
+    """When each joint locks (n,), s, of times in an order of names; infinite for joints that do not."""
     times = np.full(arm.n, np.inf)
     if degraded is None:
         return times
@@ -161,7 +169,7 @@ def _lock_times(arm: Arm, degraded: Degraded | None, lock_time: ArrayLike, start
             f"lock_time is {given.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for each joint "
             "that locks"
         )
-    for name, when in zip(degraded.locked, np.broadcast_to(given, len(degraded.locked)), strict=True):
+    for name, when in zip(order, np.broadcast_to(given, len(degraded.locked)), strict=True):
         times[arm.joint_index(name)] = when
     return times
 

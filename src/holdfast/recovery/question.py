@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+NARROWEST = 1e-4  # rad, of a cone that the tool's axis may be in
 SAME = 1e-6  # rad and m: a joint this near to its angle is there
 
 
@@ -97,8 +98,13 @@ def home_of(arm: Arm) -> tuple[Array, str]:
     return q, "all joints at 0" + (f", {', '.join(others)} at the limit nearest to it" if others else "")
 
 
-def task_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None) -> Task:
-    """The rows that count: those given, else the pose, or the position in a plane or along a path without orientations."""
+def task_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None, within: float | None) -> Task:
+    """The rows that count: those given, else the pose, or the position in a plane or along a path without orientations.
+
+    Next to the tilt of a goal with ``within`` (rad) the position counts.
+    """
+    if within is not None:
+        return _position_of(arm, task, path, within)
     if task is not None:
         return as_task(arm, task)
     flat = plane_normal(arm) is not None
@@ -106,21 +112,46 @@ def task_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None
     return as_task(arm, "planar" if flat else "pose" if whole else "position")
 
 
+def _position_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None, within: float) -> Task:
+    """Return the rows that count next to the tilt of a goal with ``within``: the position.
+
+    Raises:
+        InputError: The angle is out of bounds, there is a tool path, or the task does not prescribe the whole position.
+    """
+    if not NARROWEST <= within < np.pi:
+        raise InputError(
+            f"within is {within:g} rad; it must be from {NARROWEST:g} rad to below pi (180 deg); for a single direction use "
+            "task='pointing'"
+        )
+    if path is not None:
+        raise InputError("within is of a goal, and a tool path has rows of its own; leave out within or the path")
+    position = as_task(arm, "planar" if plane_normal(arm) is not None else "position")
+    chosen = position if task is None else as_task(arm, task)
+    if not np.allclose(position.rows @ chosen.rows.T @ chosen.rows, position.rows, atol=1e-9):
+        raise InputError(
+            f"within keeps the whole position of the tool, and task '{chosen.name}' does not; leave out the task, or use "
+            "pose, pointing or position"
+        )
+    return position
+
+
 def goal_of(
     degraded: Degraded,
     goal: ArrayLike | str | None,
+    within: float | None,
     by_hand: bool,
     standing: Array,
     clearance: Clearance | None,
     margin: float,
     path: Path | None,
 ) -> Goal | None:
-    """What the goal means for the arm as it is left, or None for the end of the path.
+    """What the goal means for the arm as it is left, or None for the end of the path; with ``within`` (rad) always poses.
 
     Raises:
         InputError: It cannot be read, is beyond the limits, or is not clear.
     """
     arm, free = degraded.arm, degraded.moves
+    cone = "" if within is None else f", its z axis within {np.rad2deg(within):.4g} deg of the axis there"
     if goal is None:
         if path is None:
             raise InputError("there is neither a goal nor a path; give goal='home', a pose, a configuration, or a path")
@@ -137,7 +168,7 @@ def goal_of(
                 raise InputError("goal holds NaN or infinity; give a pose of finite numbers")
             poses = check_poses(given.reshape(-1, 4, 4))
             text = "a pose of the end effector" if len(poses) == 1 else f"any of {len(poses)} poses of the end effector"
-            return Goal(text, poses)
+            return Goal(text + cone, poses)
         if given.shape != (arm.n,) or not np.isfinite(given).all():
             raise InputError(
                 f"goal has shape {given.shape}; give 'home', a pose (4, 4), poses (G, 4, 4), or a configuration of {arm.n} "
@@ -148,8 +179,8 @@ def goal_of(
     if beyond:
         raise InputError(f"goal: joint '{beyond[0]}' is outside its limits there; give a configuration within them")
     poses = arm.forward_kinematics(q)[None]
-    if by_hand:
-        return Goal(f"the end effector where it is at {text}", poses)
+    if by_hand or within is not None:
+        return Goal(f"the end effector where it is at {text}{cone}", poses)
     if clearance is not None and float(clearance.room(q)) < margin and certain_contacts(clearance, q[None], margin)[0]:
         raise InputError(
             f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"

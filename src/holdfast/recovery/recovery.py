@@ -151,6 +151,8 @@ class Recovery(Result):
         goal_pose: (4, 4) of the end effector, m, world: of several the one that the motion leads to, else the first; None if
             only a tool path was asked for.
         task: Whose rows the end effector must meet.
+        within: Angle in rad by which the tool's z axis may be off that of the goal's pose, any turn about it allowed; None: the
+            orientation counts as in ``task``.
         ending: :class:`holdfast.recovery.Ending`.
         reason: What is in the way, a sentence; empty if nothing is.
         q: (K, n) waypoints, rad and m, joints moving in straight lines between them; (0, n) if there is no motion.
@@ -186,6 +188,7 @@ class Recovery(Result):
     goal: str
     goal_pose: Array | None
     task: Task
+    within: float | None = None
     ending: Ending = Ending.HOME
     reason: str = ""
     q: Array

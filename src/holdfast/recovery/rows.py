@@ -28,6 +28,7 @@ Frame = Literal["base", "tool"]
 
 TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
 _STEPS = 60
+TILT = "tilt of tool z"
 _FAR = 1e300  # rad and m, for a limit that is not there: a loop takes an infinite input for a missing one
 _LIGHT = 1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
 
@@ -41,32 +42,36 @@ class Rows:
 
     Attributes:
         names: One per row, for people: ``x``, ``about tool z``.
-        matrix: (m, 6) orthonormal rows of the error (linear; angular).
+        matrix: (k, 6) orthonormal rows of the error (linear; angular), of every row but the tilt.
         linear, angular: The axes of the two parts.
+        within: Angle in rad between the tool's z axis and that of a pose up to which the last row, ``tilt of tool z``, is met.
+            The error of that row is the angle beyond it, never below 0. None: there is no such row.
     """
 
     names: tuple[str, ...]
     matrix: Array
     linear: Frame
     angular: Frame
+    within: float | None = None
 
     @classmethod
-    def of(cls, task: Task) -> Rows:
-        """The rows of a task."""
+    def of(cls, task: Task, within: float | None = None) -> Rows:
+        """Return the rows of a task, with the tilt of the tool's z axis as one more row if ``within`` (rad) is given."""
         matrix = np.eye(6) if task.invariant else task.rows
         linear, angular = task.frame, "tool" if task.invariant else task.frame
-        names = [_name(row, k, linear, angular) for k, row in enumerate(matrix)]
-        return cls(tuple(names), matrix, "base" if task.invariant else linear, angular)
+        names = [_name(row, k, linear, angular) for k, row in enumerate(matrix)] + [TILT] * (within is not None)
+        return cls(tuple(names), matrix, "base" if task.invariant else linear, angular, within)
 
     @property
     def m(self) -> int:
         """Number of rows."""
-        return len(self.matrix)
+        return len(self.names)
 
     @property
     def units(self) -> tuple[str, ...]:
         """``rad`` of rows that turn, ``m`` of the others."""
-        return tuple("rad" if np.abs(row[:3]).max() == 0 else "m" for row in self.matrix)
+        units = tuple("rad" if np.abs(row[:3]).max() == 0 else "m" for row in self.matrix)
+        return units + ("rad",) * (self.within is not None)
 
 
 def _name(row: Array, k: int, linear: str, angular: str) -> str:
@@ -92,6 +97,19 @@ def _log_slope(phi: SX) -> SX:
     factor = ca.if_else(far, 1 / angle**2 - ca.cos(angle / 2) / (2 * angle * ca.sin(angle / 2)), 1 / 12)
     cross = ca.skew(phi)
     return ca.SX.eye(3) + cross / 2 + factor * (cross @ cross)
+
+
+def _tilt(axis: SX, wanted: SX, within: float) -> tuple[SX, SX]:
+    """Return the angle between unit vectors (3,) beyond ``within`` (rad), and its decrease (1, 3) per angular velocity of axis.
+
+    Both are 0 inside the cone. The solver aims at a cone that is narrower by its tolerance, so that what it takes as met is
+    within the angle.
+    """
+    across = ca.cross(axis, wanted)
+    square = ca.sumsqr(across)
+    size = ca.sqrt(ca.if_else(square > 1e-24, square, 1.0))
+    beyond = ca.atan2(ca.if_else(square > 1e-24, size, 0.0), ca.dot(axis, wanted)) - (within - TOLERANCE)
+    return ca.fmax(beyond, 0.0), ca.if_else(beyond > 0, 1.0, 0.0) * across.T / size
 
 
 class _Kernels:
@@ -146,7 +164,11 @@ class _Kernels:
             parts.append(turn)
             slopes.append(slope)
         matrix = kinematics.constant(np.ascontiguousarray(rows.matrix[:, : 3 * len(parts)]))
-        return matrix @ ca.vertcat(*parts), matrix @ ca.vertcat(*slopes)
+        error, slope = matrix @ ca.vertcat(*parts), matrix @ ca.vertcat(*slopes)
+        if rows.within is None:
+            return error, slope
+        beyond, decrease = _tilt(chain.rotation[:, 2], r[:, 2], rows.within)
+        return ca.vertcat(error, beyond), ca.vertcat(slope, decrease @ spin)
 
     @cached_property
     @recalled
@@ -176,6 +198,12 @@ class RowSolver:
     def errors(self, q: Array, poses: Array) -> Array:
         """Signed error (N, m) of every row at q (N, n), m and rad."""
         return self._kernels.errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
+
+    def inside_cone(self, q: Array, pose: Array) -> Flags:
+        """(N,) True where the tool's z axis at q (N, n) is within the angle of that of a pose (4, 4), or none is given."""
+        if self.rows.within is None:
+            return np.ones(len(q), dtype=bool)
+        return ~self.missed(q, np.repeat(pose[None], len(q), axis=0))[:, -1]
 
     def slopes(self, q: Array, pose: Array) -> Array:
         """Exact derivative (m, n) of :meth:`errors` at q (n,) and pose (4, 4), or (N, m, n) at (N, n) and (N, 4, 4)."""
@@ -221,15 +249,21 @@ class RowSolver:
 
 @lru_cache(maxsize=16)
 def _kernels(
-    arm: Arm, matrix: tuple[tuple[float, ...], ...], names: tuple[str, ...], linear: Frame, angular: Frame
+    arm: Arm,
+    matrix: tuple[tuple[float, ...], ...],
+    names: tuple[str, ...],
+    linear: Frame,
+    angular: Frame,
+    within: float | None,
 ) -> _Kernels:
-    return _Kernels(arm, Rows(names, np.array(matrix), linear, angular))
+    return _Kernels(arm, Rows(names, np.array(matrix), linear, angular, within))
 
 
-def row_solver(arm: Arm, task: Task) -> RowSolver:
-    """The solver of an arm and the rows of a task, compiled once."""
-    rows = Rows.of(task)
-    return RowSolver(_kernels(arm, tuple(map(tuple, rows.matrix.tolist())), rows.names, rows.linear, rows.angular), arm)
+def row_solver(arm: Arm, task: Task, within: float | None = None) -> RowSolver:
+    """Return the solver of an arm and the rows of :meth:`Rows.of`, compiled once."""
+    rows = Rows.of(task, within)
+    matrix = tuple(map(tuple, rows.matrix.tolist()))
+    return RowSolver(_kernels(arm, matrix, rows.names, rows.linear, rows.angular, within), arm)
 
 
 def subsets(m: int, size: int, without: list[tuple[int, ...]]) -> list[tuple[int, ...]]:

@@ -27,7 +27,7 @@ from holdfast.recovery.continuation import RestOfPath, along, continued, refined
 from holdfast.recovery.goals import configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
-from holdfast.recovery.proofs.reach import Tolerance, every_clear, nothing_within, unreachable
+from holdfast.recovery.proofs.reach import ANY_ORIENTATION, Tolerance, every_clear, nothing_within, unreachable
 from holdfast.recovery.proofs.separation import separated
 from holdfast.recovery.question import SAME, Goal, broken_by, check_numbers, doubtful_contact, goal_of, task_of, trouble_of
 from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
@@ -54,6 +54,7 @@ def recover(
     at: ArrayLike,
     *,
     goal: ArrayLike | str | None = "home",
+    within: float | None = None,
     task: str | Task | Sequence[str] | None = None,
     path: Path | None = None,
     clearance: Clearance | bool | None = None,
@@ -84,11 +85,12 @@ def recover(
             for where ``at`` has them. Or a :class:`holdfast.Degraded`, which also has reduced ranges and speeds.
         at: (n,) where the arm is, rad and m.
         goal: (4, 4) pose of the end effector in the world, m, or (G, 4, 4), any of them; (n,) a configuration; the name of one
-            of ``arm.states`` (a
-            built-in arm's home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of an arm without a
-            state of this name: all joints at 0, or at the limit nearest to it; None, with a path: where that ends. A
-            configuration means all its joints, unless a task is given: then it means the end effector's pose there. Where a
-            locked joint is elsewhere than a configuration asks, that joint is given up and the end effector's pose is aimed at.
+            of ``arm.states`` (a built-in arm's home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of
+            an arm without a state of this name: all joints at 0, or at the limit nearest to it; None, with a path: where that
+            ends. A configuration means all its joints, unless a task is given: then it means the end effector's pose there.
+            Where a locked joint is elsewhere than a configuration asks, that joint is given up and the pose is aimed at.
+        within: Angle in rad by which the tool's z axis may be off that of the goal's pose, any turn about the axis allowed, in
+            place of the rows of orientation. A configuration then means its pose. Proofs hold for all orientations.
         task: Rows of the end effector's pose that matter; if not given, the pose, or position for an arm that moves in a plane
             or for a path without orientations.
         path: The rest of a tool path, to be finished before going to the goal.
@@ -140,14 +142,15 @@ def recover(
     if margin and kept is None:
         raise InputError("margin has nothing to keep: no clearance is looked at; give one")
     length = Metric.of(limited, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
-    wanted = task_of(arm, task, path)
-    solver = row_solver(arm, wanted).within(limited)
+    wanted = task_of(arm, task, path, within)
+    solver = row_solver(arm, wanted, within).within(limited)
     made = Recovery(
         degraded=degraded,
         at=start,
         goal="",
         goal_pose=None,
         task=wanted,
+        within=within,
         q=np.zeros((0, arm.n)),
         starts=starts,
         metric=metric,
@@ -159,7 +162,7 @@ def recover(
         seed=seed,
     )
     standing = np.where(free, start, degraded.lo)
-    aim = goal_of(degraded, goal, task is not None, standing, sharpened(kept, margin) or kept, margin, path)
+    aim = goal_of(degraded, goal, within, task is not None, standing, sharpened(kept, margin) or kept, margin, path)
     made = replace(
         made, goal=aim.text if aim is not None else "the end of the tool path", goal_pose=None if aim is None else aim.poses[0]
     )
@@ -325,12 +328,9 @@ class _Search:
                 configurations_of(self.solver, self.space, self.metric, pose, here, made.starts, self.rng) for pose in aim.poses
             ]
             goals, owner = np.concatenate(each), np.repeat(np.arange(len(each)), [len(x) for x in each])
-        asked = made.degraded, made.task
-        every = [] if len(goals) else [every_clear(*asked, pose, self.space, made.clearance) for pose in aim.poses]
-        for k, (configurations, _) in enumerate(every):
-            some = np.zeros((0, made.arm.n)) if configurations is None else configurations.q
-            some = some[self.space.clear(some)] if len(some) else some
-            goals, owner = np.concatenate([goals, some]), np.append(owner, np.full(len(some), k))
+        none: list[str | None] = []
+        if not len(goals):
+            goals, owner, none = every_clear(made, self.solver, self.space, aim.poses)
         self._look("looking for configurations of the goal")
         made = replace(made, found=len(goals))
         ending = Ending.HOME if aim.lost is None else Ending.HOME_WITH_ROWS_GIVEN_UP
@@ -345,18 +345,20 @@ class _Search:
                 self._add("to the goal", route.q, route.lower_bound, route.straight)
                 return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
             self._look("looking for a route to the goal")
-            found = f"{len(goals)} configurations of the goal were found and {self._searches} led to none of them"
+            counted = f"{self.tries} search{'es' * (self.tries != 1)}"
+            searches = "the searches" if self.space.spent or self.space.closed_in else counted
+            found = f"{len(goals)} configurations of the goal were found and {searches} led to none of them"
             reasons.append(found + self.space.in_the_way(here, goals[0]))
             if apart is not None and aim.lost is None:
                 made = replace(made, proof=apart[0], reason=apart[0], proved_within=apart[1], proof_kind="disconnected")
                 return replace(made, ending=Ending.PROVED_DISCONNECTED)
-            why, closed_in = "; ".join(reasons), self.space.closed_in
+            why, closed_in = "; ".join(reasons), self.space.closed_in if made.within is None else ""
             unknown = f"configurations were found, but no motion to them; {shape}" if (shape := unknown_shape(seen)) else ""
             ended = replace(made, given_up=None, reason=why, closed_in=closed_in, unknown=unknown)
             return replace(ended, ending=Ending.NO_ROUTE_FOUND)
         bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
-        proofs = [bound or box for bound, (_, box) in zip(bounds, every, strict=True)]
-        proof = None if None in proofs else proofs[0]
+        proofs = [bound or box for bound, box in zip(bounds, none, strict=True)]
+        proof = None if None in proofs else f"{proofs[0]}{'' if made.within is None else ANY_ORIENTATION}"
         pair = "" if proof else what_bars(self.solver, self.space, aim.poses, here, made.seed)
         found = "no clear configuration" if pair else "no configuration"
         bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
@@ -369,6 +371,8 @@ class _Search:
             made = replace(made, proof=proof, proof_kind=kind, proved_within=within)
         elif pair and (shape := unknown_shape(seen)):
             made = replace(made, unknown=f"the goal is met where {pair} may be too close; {shape}")
+        elif made.within is not None:
+            made = replace(made, unknown=f"{reasons[-1]}; a proof would have to cover the whole cone, and there is none")
         offers = [
             (choice, pose)
             for pose in aim.poses
@@ -391,10 +395,3 @@ class _Search:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
         everything = tuple(c.rows for c in choices if c.rows.names)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
-
-    @property
-    def _searches(self) -> str:
-        """How many there were, in words."""
-        if self.space.spent or self.space.closed_in:
-            return "the searches"
-        return f"{self.tries} search{'es' * (self.tries != 1)}"

@@ -179,7 +179,12 @@ def row_errors(arm: Arm, rows: Rows, q: Array, poses: Array) -> Array:
         (back @ part[:, :, None])[:, :, 0] if frame == "tool" else part
         for part, frame in ((away, rows.linear), (turn, rows.angular))
     ]
-    return np.asarray(np.concatenate(parts, axis=1) @ rows.matrix.T)
+    errors = np.concatenate(parts, axis=1) @ rows.matrix.T
+    if rows.within is None:
+        return np.asarray(errors)
+    axis, wanted = have[:, :3, 2], poses[:, :3, 2]
+    tilt = np.arctan2(np.linalg.norm(np.cross(axis, wanted), axis=1), (axis * wanted).sum(axis=1))
+    return np.column_stack([errors, np.maximum(tilt - rows.within, 0.0)])
 
 
 def tool_poses(arm: Arm, q: Array) -> Array:

@@ -54,10 +54,12 @@ def read_motion(arm: Arm, path: str | Path) -> Motion:
     """
     file = Path(path)
     if file.is_dir():
-        names = ("trajectory.csv", "run.csv", "waypoints.csv")
+        names = ("trajectory.csv", "run.csv", "waypoints.csv", "motion.csv")
         inside = [file / name for name in names if (file / name).is_file()]
         if not inside:
-            raise InputError(f"folder '{file}' holds no motion; give one that follow, simulate or recover wrote with --out")
+            raise InputError(
+                f"folder '{file}' holds no motion; give one that follow, simulate, recover or endure wrote with --out"
+            )
         file = inside[0]
     table = read_joint_table(arm, file, "motion", TIMES[0])
     time = next((name for name in TIMES if name in table.head), None)

@@ -41,6 +41,10 @@ def command(
         "home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
         "';'. Default: home; with --path none.",
     ] = None,
+    within: Annotated[
+        str | None,
+        "Angle by which the tool's z axis may be off that of the goal, for example 30deg or 0.5rad; any turn about it will do.",
+    ] = None,
     task: Annotated[str | None, f"{TASK_HELP} home and q: then mean the tool's pose there."] = None,
     path: Annotated[Path | None, "Rest of the path (YAML file), to be finished first."] = None,
     keep: KeepOption = None,
@@ -101,6 +105,8 @@ def command(
     if at is None:
         raise InputError("give --at, the current joint values, for example --at " + ",".join("0" * model.n))
     aim, positions = _goal(model, goal or ("home" if path is None else ""), degrees)
+    if positions and within is not None:
+        raise InputError("--within is about the goal's z axis, and --goal has no orientation; give x,y,z,roll,pitch,yaw")
     chosen = None if task is None else read_task(task, arm, model)
     rest = None if path is None else hf.paths.Path.load(path)
     if rest is not None:
@@ -111,6 +117,7 @@ def command(
         read_configuration(model, at, degrees, "--at"),
         goal=aim,
         task=_position_task(model, chosen) if positions else chosen,
+        within=None if within is None else _angle(within),
         path=rest,
         clearance=shape or False,
         margin=apart.margin or 0.0,
@@ -144,6 +151,16 @@ def _accelerations(arm: Arm, text: str) -> Any:
         return read_by_joint(arm, text.replace(",", " ").split(), "--accelerations")
     numbers = read_numbers("--accelerations", text, "a number, one per joint, or JOINT=NUMBER")
     return numbers if len(numbers) > 1 else float(numbers[0])
+
+
+def _angle(text: str) -> float:
+    """--within in rad."""
+    if not text.strip().endswith(("deg", "rad")):
+        raise InputError(f"--within '{text}' has no unit; write it as 30deg or 0.5rad")
+    angles = measures("--within", text)
+    if len(angles) != 1:
+        raise InputError(f"--within '{text}' has {len(angles)} numbers; give one angle, for example 30deg")
+    return angles[0]
 
 
 def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:

@@ -5,13 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
+
 import holdfast as hf
 from holdfast.cli.groups import Chain, Touched
-from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
+from holdfast.cli.laws import TARGET_HELP, CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, law_of
 from holdfast.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption, TaskOption
 from holdfast.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.errors import InputError
+from holdfast.grammar import measures
 from holdfast.present.results import drawn, printed
+
+_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by how a number of --error-limit ends
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -20,8 +25,16 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    start: Annotated[str, "Joint values at the start, rad and m, by commas or spaces."],
-    target: TargetOption,
+    start: Annotated[str | None, "Joint values at the start, rad and m, by commas or spaces."] = None,
+    target: Annotated[str | None, TARGET_HELP] = None,
+    motion: Annotated[
+        Path | None,
+        "Play this motion in MuJoCo, in place of --start and --target: a CSV file of joints over time or the folder that "
+        "recover, follow or endure wrote with --out, or a record (.npz).",
+    ] = None,
+    error_limit: Annotated[
+        str | None, "With --motion: largest distance of a joint from the motion, for example 2deg or 2deg,1mm."
+    ] = None,
     lock: Annotated[
         list[str] | None,
         "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --notice a fault. May be given again.",
@@ -55,8 +68,21 @@ def command(
 ) -> None:
     """Simulate the closed loop with locked joints that the controller does not know of.
 
+    With --motion a planned motion is played instead, and the output says when a joint first exceeds --error-limit.
+
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
+    if motion is not None:
+        others = {"--start": start, "--target": target, "--failure": failure, "--task": task, "--speed-limit": speed_limit}
+        others |= {"--cycles": cycles, "--time-limit": time_limit, "--faults": faults, "--notice": notice, "--record": record}
+        _refuse(others | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
+        played = _played(chain.arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched)
+        printed(played, json_, drawn(played, plot, out) + ([] if csv is None else [played.to_csv(csv)]))
+        return
+    if error_limit is not None:
+        raise InputError("--error-limit is of a motion that is played; add --motion")
+    if start is None or target is None:
+        raise InputError(f"{'--start' if start is None else '--target'} is missing; give --start and --target, or --motion")
     made = law_of(law, arm, task, chain, gain=gain, speed_limit=speed_limit)
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
@@ -104,10 +130,47 @@ def command(
     printed(result, json_, files)
 
 
-def _refuse(others: dict[str, object]) -> None:
+def _refuse(others: dict[str, object], with_: str = "--faults, --notice or --record") -> None:
     given = next((name for name, value in others.items() if value), None)
     if given is not None:
-        raise InputError(f"{given} does not go with --faults, --notice or --record; leave it out")
+        raise InputError(f"{given} does not go with {with_}; leave it out")
+
+
+def _played(arm: Arm, file: Path, locks: list[str], limit: str | None, servos: hf.Servos, touched: Touched) -> Result:
+    """A motion of a file carried out with joints that lock on the way."""
+    from holdfast.diagnosis.foresight.motions import read_motion as read_record
+    from holdfast.studio.motions import read_motion as read_table
+
+    if file.suffix in (".npz", ".parquet"):
+        q, rate = read_record(arm, file)
+        time = np.arange(len(q)) / rate
+    else:
+        table = read_table(arm, file)
+        if table.unit != "s":
+            raise InputError(f"motion '{file}' is not timed in seconds; write it with a column time_s")
+        q, time = table.q, table.time
+    found = [_lock(arm, text) for text in locks]
+    return hf.execute(
+        arm,
+        q,
+        time,
+        locked=[joint for joint, _ in found],
+        lock_time=[when for _, when in found] if found else 0.0,
+        servos=servos,
+        error_limit=None if limit is None else _error_limit(limit),
+        clearance=touched.read(arm),
+    )
+
+
+def _error_limit(text: str) -> tuple[float, float]:
+    """--error-limit in rad and m; a unit that is not given has no limit."""
+    found = {"rad": np.inf, "m": np.inf}
+    for part in text.split(","):
+        unit = next((kind for end, kind in _UNITS.items() if part.strip().endswith(end)), None)
+        if unit is None:
+            raise InputError(f"--error-limit '{text}' has a number without a unit; write it as 2deg, 0.05rad or 2deg,1mm")
+        found[unit] = measures("--error-limit", part)[0]
+    return found["rad"], found["m"]
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:

@@ -81,6 +81,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             :class:`FaultInjector` takes.
         arm: The arm, and ``goal(env)``, where its tool should be, (3,) or (4, 4), m: to tell whether that is feasible.
         goal: See ``arm``.
+        within: Angle in rad by which the tool's z axis may be off that of the goal, a pose; see :func:`holdfast.recover`.
         tolerance: Largest distance from the goal that counts as success, m, and rad for a pose.
         observes: Entries of the observation (a vector, or its part ``observation``) that hold a joint's value, by joint. If
             not given they are found by moving each joint.
@@ -105,6 +106,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         joints: Jointed | Sequence[str] | None = None,
         arm: Arm | None = None,
         goal: Callable[[Any], Any] | None = None,
+        within: float | None = None,
         observes: Mapping[str, Sequence[int]] | None = None,
         reveal: bool = True,
         tolerance: float = 1e-6,
@@ -119,7 +121,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self.injector = FaultInjector(model, data, arm if joints is None else joints, faults=faults, horizon=horizon)
         self._physics = PhysicsCalls(self.injector)
         self._arm, self._goal, self._reveal = arm, goal, reveal
-        self._tolerance = tolerance
+        self._tolerance, self._within = tolerance, within
         self._observes, self._given, self._episode = dict(observes or {}), observes is not None, -1
         self._rows = model.jnt_qposadr[[model.joint(name).id for name in self.injector.joints]]
         self._recorder = None if record is None else Recorder(record)
@@ -232,7 +234,8 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         other = next((e.joint for e in self.injector.places if e.joint not in self._arm.joint_names), None)
         if other is not None:
             return Feasibility("unknown", f"'{other}' is not a joint of the arm")
-        self._verdict = feasible(self._arm, self._goal(self.env), self.injector.places, tolerance=self._tolerance)
+        goal, places = self._goal(self.env), self.injector.places
+        self._verdict = feasible(self._arm, goal, places, within=self._within, tolerance=self._tolerance)
         return self._verdict
 
     def _held(self, action: Any) -> Any:

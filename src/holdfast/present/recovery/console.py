@@ -46,6 +46,7 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         "degraded": recovery.degraded.to_dict(),
         "goal": recovery.goal,
         "task": recovery.task.name,
+        "within": recovery.within,
         "ok": recovery.ok,
         "ending": recovery.ending.name.lower(),
         "sentence": recovery.ending.sentence,

@@ -42,7 +42,7 @@ def proved_of_path(made: Recovery, rest: RestOfPath, path: Path, *, solver: RowS
     asked, at = (made.degraded, made.task), np.where(space.free, made.at, made.degraded.lo)
     broken = ((k, broken_by(made.keep, solver.rows, poses[k]) or None) for k in order)
     tried = ((k, unreachable(solver, space.free, at, poses[k])) for k in order)
-    boxes = ((k, every_clear(*asked, poses[k], space, made.clearance)[1]) for k in hardest)
+    boxes = ((k, every_clear(made, solver, space, poses[k : k + 1])[2][0]) for k in hardest)
     known = next(((k, proof) for k, proof in chain(broken, tried, boxes) if proof is not None), None)
     if known is not None:
         hardest = list(dict.fromkeys([known[0], *hardest]))

@@ -15,6 +15,7 @@ from holdfast.enclosure.boxes import Blocked
 from holdfast.errors import TaskError
 from holdfast.failures import Degraded
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
+from holdfast.recovery.recovery import Recovery
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import Space
 
@@ -24,6 +25,7 @@ Flags = NDArray[np.bool_]
 BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
 _SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
 Tolerance = tuple[float, float]
+ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
 EXACT: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
 
 
@@ -48,15 +50,23 @@ def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str |
 
 
 def every_clear(
-    degraded: Degraded, task: Task, pose: Array, space: Space, clearance: Clearance | None
-) -> tuple[Configurations | None, str | None]:
-    """Every configuration of a pose (4, 4) that is not certainly blocked, and that none is clear, if these can be told.
+    made: Recovery, solver: RowSolver, space: Space, poses: Array
+) -> tuple[Array, NDArray[np.int64], list[str | None]]:
+    """Enumerate the clear configurations of poses (G, 4, 4), each pose in half of the time that is left.
 
-    In half of the time that is left.
+    Returns:
+        Configurations (K, n), the pose (K,) of each, and for each pose the proof that it has none, if there is one. A proof
+        is about the rows of the task alone, so it holds for every tilt of the tool.
     """
-    blocked = blocked_in(space)
-    found = listed(degraded, task, pose, space.seconds_left / 2, blocked)
-    return found, proved_by(found, clearance, "" if blocked is None else blocked.what)
+    goals, owner, proofs = np.zeros((0, made.arm.n)), np.zeros(0, dtype=np.int64), list[str | None]()
+    for k, pose in enumerate(poses):
+        blocked = blocked_in(space)
+        found = listed(made.degraded, made.task, pose, space.seconds_left / 2, blocked)
+        proofs.append(proved_by(found, made.clearance, "" if blocked is None else blocked.what))
+        some = goals[:0] if found is None else found.q
+        some = some[space.clear(some) & solver.inside_cone(some, pose)] if len(some) else some
+        goals, owner = np.concatenate([goals, some]), np.append(owner, np.full(len(some), k))
+    return goals, owner, proofs
 
 
 def nothing_within(degraded: Degraded, task: Task, pose: Array, space: Space, tolerance: Tolerance) -> bool:
