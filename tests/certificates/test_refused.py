@@ -58,7 +58,9 @@ def test_targets_without_configurations(three, capsys, monkeypatch):
     monkeypatch.delenv("HOLDFAST_NOTICES", raising=False)
     corner = reach_claim(three, [2.6, 1.2], 0.6)
     hf.certify(corner, halvings=1)
-    lost, drawn = map(int, re.search(r"no configuration is found for (\d+) of (\d+) targets", capsys.readouterr().err).groups())
+    lost, drawn = map(
+        int, re.search(r"no configuration was found for (\d+) of (\d+) sampled targets", capsys.readouterr().err).groups()
+    )
     axes = (np.linspace(*side, 200) for side in corner.box)
     assert lost / drawn == pytest.approx((np.hypot(*np.meshgrid(*axes)) > 3).mean(), abs=0.12)  # four deviations
     hf.certify(reach_claim(three, [1.5, 0.5], 0.2), halvings=1)

@@ -81,7 +81,7 @@ def test_one_file_holds_all_parts(proof, tmp_path):
         held = {name: archive.read(name) for name in archive.namelist()}
     first, last = next(iter(held)), list(held)[-1]
     for name, text, said in (
-        (last, None, "cannot be read"),
+        (last, None, "cannot read"),
         (last, held[first], "is not the part"),
         (first, b"{", "cannot be"),
     ):

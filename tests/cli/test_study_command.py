@@ -257,7 +257,7 @@ def test_labels_of_a_damaged_study_are_named_and_mended(cli, ask, file, folder, 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (f"poses: {2**70}\nchunk: 1\narms: [planar-3r]\nassess: {{}}\n", "rows in chunks of 1; a cell may have at most"),
+        (f"poses: {2**62}\nchunk: 1\narms: [planar-3r]\nassess: {{}}\n", "rows in chunks of 1; a cell may have at most"),
         ("poses: 100000000\nchunk: 1\narms: [planar-3r]\nassess: {}\n", "give fewer rows or a larger chunk"),
     ],
 )

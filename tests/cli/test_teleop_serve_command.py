@@ -16,6 +16,7 @@ def served(monkeypatch):
     calls = []
 
     def serve(options, host, port, ready):
+        app.prepare(options.folder, options.protocol)
         calls.append((options, host, port))
         ready(port or 4711)
 

@@ -239,7 +239,7 @@ DAMAGED = {
     "a name that is too long": lambda c: c.update(name="x" * 300),
     "no labels": lambda c: c.pop("labels"),
     "labels that are text": lambda c: c.update(labels="x"),
-    "rows without end": lambda c: c.update(rows=2**70),
+    "rows without end": lambda c: c.update(rows=2**62),
     "more chunks than can be counted": lambda c: c.update(rows=10**9, chunk=1),
     "chunks of nothing": lambda c: c.update(chunk=0),
     "no digest": lambda c: c.pop("digest"),
@@ -259,7 +259,7 @@ def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("rows", 2**70), ("rows", -1), ("chunk", 0), ("columns", [["../x", "float64", [], "1", ""]]), ("columns", [["x"]]),
+    [("rows", 2**62), ("rows", -1), ("chunk", 0), ("columns", [["../x", "float64", [], "1", ""]]), ("columns", [["x"]]),
      ("columns", [["x", "no type", [], "1", ""]]), ("columns", [["x", "a", [], "1", ""]]),
      ("columns", [["x", "O", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]]), ("done", [99])],
 )  # fmt: skip
