@@ -187,7 +187,7 @@ class Plan:
         task = Task.from_dict(data["task"])
         index = by_name(data["index"], arm, task, failures=[list(f) for f in data["failures"]])
         if isinstance(index, FileIndex) and index.digest != data["index_digest"]:
-            raise InputError(
+            raise StoreError(
                 f"the function of index '{index.label}' has changed since these results were computed; restore it, or compute "
                 "into a new folder"
             )
@@ -216,6 +216,8 @@ class Plan:
         """
         try:
             plan = cls.from_dict(store.plan, poses)
+        except StoreError as error:
+            raise StoreError(f"'{store.path}' cannot be read: {error}") from error
         except HoldfastError as error:
             raise StoreError(f"'{store.path}' is damaged: {error}; start the run again in a new folder") from error
         except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
