@@ -179,7 +179,7 @@ class Registry(Mapping[str, Entry]):
         own: Module and function that make one from ``module:function``, if the kind has such.
     """
 
-    def __init__(self, kind: str, package: str, error: type[HoldfastError], own: tuple[str, ...] = ()) -> None:
+    def __init__(self, kind: str, package: str, error: type[HoldfastError], own: tuple[str, str] | None = None) -> None:
         self._own = own
         self.kind, self.package, self._error = kind, f"holdfast.{package}", error
 
@@ -205,7 +205,7 @@ class Registry(Mapping[str, Entry]):
         """The entry of a function of one's own, written as ``module:function``; None for any other label."""
         if not self._own or label.partition(":")[0] in self or not _MODULE_FUNCTION.fullmatch(label):
             return None
-        return Entry(self.kind, label, *self._own, "A function of one's own.", ())
+        return Entry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
 
     def read(self, label: str, option: str = "") -> tuple[Entry, dict[str, Any]]:
         """The entry that a label names, and the settings that it gives.

@@ -47,7 +47,7 @@ def test_a_table_of_an_arm_of_a_urdf_file_keeps_its_masses(tmp_path):
     q = np.random.default_rng(1).uniform(-1, 1, (5, arm.n))
     np.testing.assert_allclose(again.forward_kinematics(q), arm.forward_kinematics(q), atol=1e-12)
     np.testing.assert_allclose(again.gravity_torque(q), arm.gravity_torque(q), atol=1e-11)
-    with pytest.raises(hf.InputError, match="ends in .urdf or .yaml"):
+    with pytest.raises(hf.InputError, match=r"ends in \.urdf or \.yaml"):
         arm.save(tmp_path / "arm.txt")
 
 

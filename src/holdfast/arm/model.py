@@ -145,7 +145,7 @@ class Arm(Shown, Machine):
         return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
 
     def describe(self) -> list[str]:
-        """Describe joints, single points of failure by structure, and problems of the data: the lines of ``holdfast describe``."""
+        """Describe joints, single points of failure, and data problems: the lines of ``holdfast describe``."""
         lines: list[str] = self._presented("describe")
         return lines
 

@@ -21,8 +21,8 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.failures import locks_at
-from holdfast.indices.own_file import FileIndex
 from holdfast.indices.index import Index, by_name
+from holdfast.indices.own_file import FileIndex
 from holdfast.regions.region import Region, Sampling
 from holdfast.registry import INDICES
 from holdfast.solvers.optimum import default_starts

@@ -121,9 +121,7 @@ def cdf_figure(f: Facts) -> Figure:
         figure = Figure(figsize=(7.2, 4.8))
         axes = figure.subplots()
         shown = [mark for mark in f.marks if mark.x <= curves[0].x[-1]]
-        figures.draw_cdf(
-            axes, curves, shown, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", log=f.log
-        )
+        figures.draw_cdf(axes, curves, shown, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", log=f.log)
         lost = f", {f.d.unreached:,} of them not reached" if f.d.unreached else ""
         axes.set_title(f"{figures.plain(f.a.arm.name, 30)}: {f.d.samples:,} {f.noun}s{lost}")
         figures.legend_below(figure, axes, 1)
