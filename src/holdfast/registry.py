@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
@@ -18,6 +19,8 @@ from holdfast import grammar
 from holdfast.arguments import checked
 from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, TaskError
+
+_MODULE_FUNCTION = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*")
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -173,9 +176,11 @@ class Registry(Mapping[str, Entry]):
         kind: What one is called.
         package: Where it is exported, below ``holdfast``.
         error: Raised for a name that is not known.
+        own: Module and function that make one from ``module:function``, if the kind has such.
     """
 
-    def __init__(self, kind: str, package: str, error: type[HoldfastError]) -> None:
+    def __init__(self, kind: str, package: str, error: type[HoldfastError], own: tuple[str, str] | None = None) -> None:
+        self._own = own
         self.kind, self.package, self._error = kind, f"holdfast.{package}", error
 
     @cached_property
@@ -196,6 +201,12 @@ class Registry(Mapping[str, Entry]):
     def __len__(self) -> int:
         return len(self._entries)
 
+    def _of_file(self, label: str) -> Entry | None:
+        """The entry of a function of one's own, written as ``module:function``; None for any other label."""
+        if not self._own or label.partition(":")[0] in self or not _MODULE_FUNCTION.fullmatch(label):
+            return None
+        return Entry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
+
     def read(self, label: str, option: str = "") -> tuple[Entry, dict[str, Any]]:
         """The entry that a label names, and the settings that it gives.
 
@@ -207,6 +218,9 @@ class Registry(Mapping[str, Entry]):
             HoldfastError: The name is not known; the message has the nearest, and all.
             InputError: A setting that it does not have, or of another kind.
         """
+        own = self._of_file(label)
+        if own is not None:
+            return own, {"function": label}
         name, value, by_key = grammar.split(label)
         what = f"{option} '{label}'".strip()
         if name not in self:
@@ -253,7 +267,8 @@ class Registry(Mapping[str, Entry]):
         Raises:
             InputError: There is none: it is of a class of one's own, or has a setting that no label can hold.
         """
-        made = get_type_hints(self[thing.slug].make).get("return") if thing.slug in self else None
+        entry = self[thing.slug] if thing.slug in self else self._of_file(thing.slug)
+        made = None if entry is None else get_type_hints(entry.make).get("return")
         if type(thing) is not made:
             raise InputError(f"{thing!r} is of your own making, which a file cannot hold; keep the script")
         return grammar.label(thing.slug, thing.settings)
@@ -319,6 +334,6 @@ def _parameters(arguments: ast.arguments, aliases: Mapping[str, ast.expr]) -> It
                 yield replace(made, name=argument.arg, kind=ast.unparse(kind), default=usual)
 
 
-INDICES = Registry("index", "indices", TaskError)
+INDICES = Registry("index", "indices", TaskError, ("holdfast.indices.own_file", "load_index"))
 LAWS = Registry("control law", "control", InputError)
 SUSCEPTIBILITIES = Registry("susceptibility", "indices.susceptibility", InputError)

@@ -144,6 +144,31 @@ class Arm(Shown, Machine):
         base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
         return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
 
+    def describe(self) -> list[str]:
+        """Describe joints, single points of failure, and data problems: the lines of ``holdfast describe``."""
+        lines: list[str] = self._presented("describe")
+        return lines
+
+    def save(self, file: str | Path) -> Path:
+        """Write the arm as a URDF file (``.urdf``) or as a Denavit-Hartenberg table (``.yaml``).
+
+        A table holds all numbers of the arm. A URDF file has no place for gravity, payload, rotor inertia and limits on one
+        side; what is lost is said. Frames are written as angles, so numbers read from the file may differ in the last digits,
+        and then :attr:`fingerprint` does. A table has frames of its own between the joints.
+
+        Args:
+            file: The file, replaced in one step. :meth:`from_urdf` reads one, :func:`holdfast.arms.resolve` both.
+
+        Returns:
+            The file.
+
+        Raises:
+            InputError: Another ending.
+            StoreError: The file cannot be written.
+        """
+        written: Path = self._presented("save", Path(file))
+        return written
+
     # ---- how it looks ------------------------------------------------------------------------------------------
 
     def show(self, q: ArrayLike | None = None, **options: Any) -> Html:

@@ -26,6 +26,7 @@ An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, m
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -70,14 +71,24 @@ def load(path: str | Path) -> Arm:
         raise ArmError(f"{path.name}: {error}") from error
 
 
-def text(table: DHTable, name: str, gravity: ArrayLike = GRAVITY, source: str = "") -> str:
-    """A table as a file in the format of this module, in m and degrees; masses are not in it.
+def text(
+    table: DHTable,
+    name: str,
+    gravity: ArrayLike = GRAVITY,
+    source: str = "",
+    *,
+    links: Sequence[Link | None] = (),
+    payload: Link | None = None,
+) -> str:
+    """A table as a file in the format of this module, in m and degrees.
 
     Args:
         table: The rows with their limits, the base and the tool.
         name: Of the arm.
         gravity: (3,) in the world, m/s^2.
         source: Where the numbers come from.
+        links: One per row, each in its row's frame, None where nothing is known; no masses are written if there are none.
+        payload: In the last row's frame.
 
     Returns:
         YAML. What is read from it again has the numbers of the table to 1e-14.
@@ -89,7 +100,21 @@ def text(table: DHTable, name: str, gravity: ArrayLike = GRAVITY, source: str = 
             lines += [f"{key}:", *[f"  - [{', '.join(_scalar(x) for x in line)}]" for line in (pose + 0.0).tolist()]]
     if not np.array_equal(gravity, GRAVITY):
         lines.append(f"gravity: [{', '.join(_scalar(float(x)) for x in np.asarray(gravity))}]")
+    if any(link is not None for link in links):
+        lines += ["links:", *[f"  - {_body(link)}" for link in links]]
+    lines += [f"payload: {_body(payload)}"] * (payload is not None)
     return "\n".join(lines) + "\n"
+
+
+def _body(link: Link | None) -> str:
+    """A body as one line of YAML; with all digits, because a small inertia is not a small number of digits."""
+    if link is None:
+        return "null"
+    i = link.inertia
+    upper = (i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2])
+    numbers = [", ".join(repr(float(x)) for x in values) for values in (link.com, upper)]
+    name = f"name: {_scalar(link.name)}, " if link.name else ""
+    return f"{{{name}mass: {float(link.mass)!r}, com: [{numbers[0]}], inertia: [{numbers[1]}]}}"
 
 
 def _cells(row: DH) -> list[tuple[str, str | float]]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.dh import DH
-from holdfast.arm.machine import snapped
+from holdfast.arm.machine import Link, snapped
 from holdfast.arm.model import Arm
 
 Array = NDArray[np.float64]
@@ -79,6 +79,17 @@ def dh_table(arm: Arm) -> DHTable:
     rows = tuple(_row(arm, k, frames[k], frames[k + 1]) for k in range(arm.n))
     tool = _inverse(frames[-1]) @ joints[-1] @ arm.tool
     return DHTable(rows, arm.base @ first, _clean(tool))
+
+
+def table_bodies(arm: Arm, table: DHTable) -> tuple[list[Link | None], Link | None]:
+    """Express the links and the payload of an arm in the frames of the rows of its table."""
+    q = np.zeros(arm.n)
+    own, theirs = arm.frames(q), table.arm().frames(q)
+    rows = [theirs[k + 1] @ Arm.from_dh([row]).flange for k, row in enumerate(table.rows)]
+    moved = [_inverse(row) @ own[k + 1] for k, row in enumerate(rows)]
+    links = arm.links or (None,) * arm.n
+    found = [None if link is None else link.moved(_clean(pose)) for link, pose in zip(links, moved, strict=True)]
+    return found, None if arm.payload is None else arm.payload.moved(_clean(moved[-1]))
 
 
 def _first(z: Array, p: Array) -> Array:

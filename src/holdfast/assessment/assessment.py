@@ -301,7 +301,7 @@ class Assessment(Result):
             return self._rows
         if self.store is not None:
             return self.store.arrays()
-        raise InputError("the poses of this run were not kept (keep=False); assess again with store=PATH or keep=True")
+        raise InputError("the poses of this run were not kept; assess again with store=PATH, keep=True, or keep: rows")
 
     @property
     def dataset(self) -> xr.Dataset:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -73,3 +74,16 @@ class Counts:
             highest=highest,
             _reached=reached,
         )
+
+
+def add_chunks(
+    index: Index, optimised: bool, chunks: Iterable[Mapping[str, NDArray[Any]]]
+) -> list[tuple[Counts, NDArray[np.int64]]]:
+    """Add up chunks that hold counts: values and worst failures as found and, if ``optimised``, at the best configurations."""
+    befores = ["", *["optimised_"] * optimised]
+    parts = [(Counts(index), np.zeros(len(index.failures), dtype=np.int64)) for _ in befores]
+    for rows in chunks:
+        for before, (counts, worst) in zip(befores, parts, strict=True):
+            counts.join(rows[f"{before}bins"][0], rows[f"{before}facts"][0])
+            worst += rows[f"{before}worst_counts"][0]
+    return parts

@@ -22,6 +22,7 @@ from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.failures import locks_at
 from holdfast.indices.index import Index, by_name
+from holdfast.indices.own_file import FileIndex
 from holdfast.regions.region import Region, Sampling
 from holdfast.registry import INDICES
 from holdfast.solvers.optimum import default_starts
@@ -145,6 +146,8 @@ class Plan:
             "seeds": "poses of block b: SeedSequence(seed, spawn_key=(0, b)); starts of block b: (1, b), of its optimisation "
             f"(2, b), of its locks (3, b); {self.region.block} poses per block",
         }
+        if isinstance(index, FileIndex):
+            data["index_digest"] = index.digest
         if self.optimise:
             data["optimise"] = default_starts(self.arm, task)
         if self.after_lock:
@@ -170,7 +173,7 @@ class Plan:
         if not self.region.storable:
             own = f"region '{self.region.name}' has a function of your own"
         elif not self.storable:
-            own = f"index '{self.index.name}' is your own function"
+            own = f"index '{self.index.name}' is your own function outside a file"
         if own is not None:
             raise InputError(f"{own}, which a folder cannot hold; assess without a store")
         return Store.create(path, self.to_dict(), self.columns(), rows=self.poses, chunk=_CHUNK_BLOCKS * self.region.block)
@@ -183,6 +186,11 @@ class Plan:
             raise InputError("its fingerprint is not that of its arm, so its rows may be those of another arm")
         task = Task.from_dict(data["task"])
         index = by_name(data["index"], arm, task, failures=[list(f) for f in data["failures"]])
+        if isinstance(index, FileIndex) and index.digest != data["index_digest"]:
+            raise StoreError(
+                f"the function of index '{index.label}' has changed since these results were computed; restore it, or compute "
+                "into a new folder"
+            )
         region = Region.from_dict(data["region"])
         apart = data.get("clearance")
         return cls(
@@ -208,6 +216,8 @@ class Plan:
         """
         try:
             plan = cls.from_dict(store.plan, poses)
+        except StoreError as error:
+            raise StoreError(f"'{store.path}' cannot be read: {error}") from error
         except HoldfastError as error:
             raise StoreError(f"'{store.path}' is damaged: {error}; start the run again in a new folder") from error
         except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:

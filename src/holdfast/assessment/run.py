@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,18 +13,22 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.assessment.assessment import Assessment
+from holdfast.assessment.bins import add_chunks
 from holdfast.assessment.block import compile_for
 from holdfast.assessment.plan import Plan, Rows, make_plan
 from holdfast.assessment.rows import Progress, Tally, blocks, fill, provenance, stored
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Store
+from holdfast.engine.study import STUDY_FILE, Study
 from holdfast.errors import InputError, StoreError
+from holdfast.files import reading
 from holdfast.indices.index import Index, by_name
 from holdfast.notice import says
 from holdfast.regions.region import Region, Sampling, default_region
 
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
+_NAMED_CELLS = 4  # of a study, in a message
 
 
 @checked
@@ -132,19 +137,67 @@ def assess(
 
 @checked
 def load(path: str | Path) -> Assessment:
-    """The assessment in a results folder; of a run that was stopped, what is there.
+    """Read the assessment in a results folder, or in the folder of a study or of one of its cells.
+
+    Of a run that was stopped it has what is there. A study that kept counts (``keep: counts``) has distributions in bins and no
+    rows. A study with several cells has several assessments, each in a folder of its own.
+
+    Args:
+        path: What ``--out`` of ``holdfast assess`` or ``holdfast study run`` named, or a folder in ``cells`` of the latter.
 
     Raises:
-        StoreError: Not a results folder of an assessment, or damaged.
+        StoreError: Not a results folder of an assessment, or damaged, or a study of several cells; the message names them.
     """
-    store = Store.open(path)
-    if store.plan.get("kind") != "assess":
-        raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
+    folder = _cell_of(Path(path))
+    store = Store.open(folder)
+    kind = store.plan.get("kind")
+    if kind == "assess-counts":
+        return _counted(store)
+    if kind != "assess":
+        raise StoreError(f"'{folder}' is not an assessment; give the folder that `holdfast assess --out` wrote")
     plan = Plan.stored(store, store.rows)
     tally = Tally(plan)
     for rows in stored(store, plan):
         tally.add(rows)
     return _finished(plan, tally, store, store.notes.get("seconds"), store.complete, None)
+
+
+def _cell_of(folder: Path) -> Path:
+    """Return the folder of the only cell of a study; any other folder as it is."""
+    if not reading.exists(folder / STUDY_FILE):
+        return folder
+    study = Study.open(folder)
+    if len(study.cells) == 1:
+        return study.folder(0)
+    cells = [f"'{study.folder(k)}'" for k in range(min(len(study.cells), _NAMED_CELLS))]
+    more = f" or one of {len(study.cells) - len(cells)} more" if len(study.cells) > len(cells) else ""
+    raise StoreError(f"'{folder}' is a study of {len(study.cells)} cells; load one of them: {', '.join(cells)}{more}")
+
+
+def _counted(store: Store) -> Assessment:
+    """Build the assessment of a study's cell that kept counts instead of rows."""
+    parent = store.path.resolve().parents[1]
+    sizes = {}
+    if reading.exists(parent / STUDY_FILE):
+        sizes = {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
+    first = Plan.stored(store, 1, rows=False)
+    parts = add_chunks(first.index, first.optimise, (store.checked(k) for k in store.done))
+    samples = int(parts[0][0].facts[:2].sum())
+    plan = replace(first, poses=max(sizes.get(store.path.resolve().name, samples), 1))
+    best = parts[1] if plan.optimise else None
+    return Assessment(
+        plan=plan,
+        distribution=parts[0][0].finish(),
+        worst_counts=parts[0][1],
+        optimised=None if best is None else best[0].finish(),
+        optimised_worst_counts=None if best is None else best[1],
+        survivors=None,
+        collisions=None,
+        clear=None,
+        store=None,
+        seconds=sum(entry.seconds for entry in store.entries.values()),
+        complete=store.complete,
+    )
 
 
 def _finished(

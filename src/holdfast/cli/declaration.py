@@ -7,6 +7,7 @@ with the values of its default as theirs, or with those of the class if it has n
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import wraps
@@ -14,6 +15,8 @@ from inspect import Parameter, Signature, signature
 from typing import Annotated, Any, get_origin, get_type_hints
 
 import typer
+
+from holdfast.grammar import is_number
 
 
 def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -45,6 +48,27 @@ def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
 def _option(name: str, kind: Any, default: Any) -> Parameter:
     if get_origin(kind) is Annotated and isinstance(kind.__metadata__[0], str):
         about, *shown = kind.__metadata__
-        option = typer.Option(f"--{name.strip('_').replace('_', '-')}", help=about, show_default=shown[0] if shown else True)
+        whole: dict[str, Any] = {}
+        if kind.__origin__ in (int, int | None):
+            whole = {"parser": read_whole_number, "metavar": "INTEGER"}
+        option = typer.Option(
+            f"--{name.strip('_').replace('_', '-')}", help=about, show_default=shown[0] if shown else True, **whole
+        )
         kind = Annotated[kind.__origin__, option]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind)
+
+
+def read_whole_number(text: str | int) -> int:
+    """Read ``2000`` or ``1e7``.
+
+    Raises:
+        typer.BadParameter: The text is not a whole number.
+    """
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    number = float(text) if is_number(str(text)) else math.nan
+    if not number.is_integer():
+        raise typer.BadParameter(f"'{text}' is not a whole number; write for example 2000 or 1e7")
+    return int(number)

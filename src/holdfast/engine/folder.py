@@ -58,6 +58,8 @@ def by_content(plan: Mapping[str, Any]) -> dict[str, Any]:
 
 def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> str:
     """The first entry in which the plan of a folder and the one asked for differ, for a sentence; empty if none."""
+    if old.get("index") == new.get("index") and old.get("index_digest") != new.get("index_digest"):
+        return f"the function of its index '{new.get('index')}' has changed since"
     for key in sorted({*old, *new}):
         if old.get(key) != new.get(key):
             a, b = (shortened(json.dumps(x.get(key))) for x in (old, new))

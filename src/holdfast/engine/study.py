@@ -24,7 +24,7 @@ from holdfast.result import Result
 from holdfast.words import duration
 
 _FORMAT, _VERSION = "holdfast-study", 1
-_FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
+STUDY_FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
 _KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 
@@ -60,7 +60,7 @@ class Study(Result):
         """
         folder = Path(path)
         data = described(name, seed, cells, source)
-        if reading.exists(folder / _FILE):
+        if reading.exists(folder / STUDY_FILE):
             study = cls.open(folder)
             if study.digest != data["digest"]:
                 raise StoreError(
@@ -89,10 +89,10 @@ class Study(Result):
             StoreError: There is none, or it is damaged or of another version.
         """
         folder = Path(path)
-        file = folder / _FILE
+        file = folder / STUDY_FILE
         if not reading.exists(file):
             raise StoreError(
-                f"'{folder}' is not a study: it has no {_FILE}; give the folder that 'holdfast study run --out' named"
+                f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
             data = reading.parsed(file)
@@ -126,7 +126,7 @@ class Study(Result):
         return study
 
     def _write(self, data: dict[str, Any]) -> None:
-        replaced(self.path / _FILE, json.dumps(data, indent=1))
+        replaced(self.path / STUDY_FILE, json.dumps(data, indent=1))
         self._data = data
 
     def check_same(self, other: Study) -> None:

@@ -13,6 +13,7 @@ from holdfast.indices.index import WorstCase as WorstCase
 from holdfast.indices.index import by_name as by_name
 from holdfast.indices.matrices import compute_inertia_matrix as compute_inertia_matrix
 from holdfast.indices.matrices import compute_singular_values as compute_singular_values
+from holdfast.indices.matrices import compute_symmetric_eigenvalues as compute_symmetric_eigenvalues
 from holdfast.indices.objective import Objective as Objective
 from holdfast.indices.objective import Opposite as Opposite
 from holdfast.indices.objective import Part as Part

@@ -52,3 +52,24 @@ def compute_singular_values(matrix: SX) -> SX:
     for _ in range(_SWEEPS):
         rows, _change = jacobi_sweep(rows)
     return ca.vertcat(*[ca.sqrt(dot(row, row)) for row in rows])
+
+
+def compute_symmetric_eigenvalues(matrix: SX) -> SX:
+    """Compute the eigenvalues of a symmetric matrix; each can be differentiated where no other equals it.
+
+    They are the singular values of the matrix plus twice its Frobenius norm on the diagonal, which is positive definite.
+
+    Args:
+        matrix: (m, m) with at most six rows, symmetric; not all entries 0.
+
+    Returns:
+        (m,) in no particular order, to about 1e-15 of the Frobenius norm.
+
+    Raises:
+        InputError: Not square, or more than six rows.
+    """
+    m, c = matrix.shape
+    if m != c:
+        raise InputError(f"the matrix has shape {m}x{c}; it must be square")
+    shift = 2 * ca.norm_fro(matrix)
+    return compute_singular_values(matrix + shift * ca.SX.eye(m)) - shift

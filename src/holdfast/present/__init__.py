@@ -76,7 +76,7 @@ PRESENTERS = {
     "WhatIsLeft": ("recovery.left", "recovery.left"),
     "Workspace": ("convergence.origins", "convergence.origins"),
 }
-_WORDS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps", "story"}
+_WORDS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps", "story", "describe"}
 
 
 def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:

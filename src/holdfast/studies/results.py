@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.assessment.answer import ZERO
-from holdfast.assessment.bins import Counts
+from holdfast.assessment.bins import add_chunks
 from holdfast.assessment.plan import Plan
 from holdfast.assessment.rows import Tally
 from holdfast.convergence.maps import NONE, shared
@@ -115,17 +115,9 @@ def assessed(study: Study, cell: int) -> Assessed:
 
 
 def _from_counts(study: Study, cell: int, labels: dict[str, Any], plan: Plan) -> Assessed:
-    befores = ["", *["optimised_"] * plan.optimise]
-    counts = {before: Counts(plan.index) for before in befores}
-    often = np.zeros(len(plan.index.failures), dtype=np.int64)
-    some = False
-    for rows in chunks(study, cell):
-        some = True
-        often += rows["worst_counts"][0]
-        for before, c in counts.items():
-            c.join(rows[f"{before}bins"][0], rows[f"{before}facts"][0])
-    found = [c.finish() if some else None for c in counts.values()]
-    return Assessed(labels, plan, found[0], found[1] if plan.optimise else None, _worst(plan, often), None)
+    parts = add_chunks(plan.index, plan.optimise, chunks(study, cell))
+    found = [counts.finish() if counts.facts[:2].any() else None for counts, _ in parts]
+    return Assessed(labels, plan, found[0], found[1] if plan.optimise else None, _worst(plan, parts[0][1]), None)
 
 
 def _worst(plan: Plan, counts: NDArray[Any]) -> tuple[str, float] | None:

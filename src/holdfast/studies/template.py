@@ -18,6 +18,10 @@ from holdfast.files.output import replaced
 from holdfast.grammar import FAILURES_HELP, TASKS
 from holdfast.registry import INDICES, LAWS, Registry
 
+_SMALL_CHUNK = 500
+_MOST_CHUNKS = 1000
+_BLOCK = 1024  # poses of a block of a box region, which draw from one seed
+
 _TEXT = """\
 # A study of holdfast: what is computed is every combination of the lists below.
 #
@@ -74,7 +78,7 @@ def write(
     file: str | Path,
     arm: Sequence[ArmSpec],
     poses: int,
-    chunk: int,
+    chunk: int | None,
     seed: int,
     indices: Sequence[str] = ("relative-manipulability",),
     laws: Sequence[str] = (),
@@ -86,7 +90,7 @@ def write(
         file: Where; it must not exist yet.
         arm: Built-in names, or arm files with their base, tip and what is held.
         poses: Samples of each cell.
-        chunk: Of them computed and committed together.
+        chunk: Of them computed and committed together; :func:`choose_chunk` if None.
         seed: Of everything random.
         indices: Of the assessments.
         laws: Of the maps of convergence; none if empty.
@@ -99,6 +103,7 @@ def write(
     from holdfast.studies.study_file import read
 
     path = Path(file)
+    chunk = choose_chunk(poses) if chunk is None else chunk
     for what, number, least in (("--poses", poses, 1), ("--chunk", chunk, 1), ("--seed", seed, 0)):
         if number < least:
             raise InputError(f"{what} is {number}; it must be {least} or more")
@@ -135,6 +140,17 @@ def write(
         path.unlink()
         raise
     return path
+
+
+def choose_chunk(poses: int) -> int:
+    """Choose a number of samples to compute and commit together.
+
+    A study of at most half a million samples has chunks of 500. A larger one has at most a thousand chunks of whole blocks,
+    because each chunk costs a file per column and a line of the journal.
+    """
+    if poses <= _SMALL_CHUNK * _MOST_CHUNKS:
+        return _SMALL_CHUNK
+    return _BLOCK * -(-poses // (_BLOCK * _MOST_CHUNKS))
 
 
 def _beside(arm: ArmSpec, file: Path) -> str | dict[str, Any]:

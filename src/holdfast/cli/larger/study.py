@@ -34,7 +34,7 @@ def new(
     file: FileArgument,
     arm: Annotated[list[str], "Built-in name or arm file; may be given again."],
     poses: Annotated[int, "Samples of each cell."] = 2000,
-    chunk: Annotated[int, "Samples computed and committed together."] = 500,
+    chunk: Annotated[int | None, "Samples computed and committed together.", "500, more above 500,000 samples"] = None,
     seed: Annotated[int, "The same seed gives the same bits."] = 0,
     index: Annotated[list[str] | None, "May be given again.", "relative-manipulability"] = None,
     law: Annotated[list[str] | None, "Also maps of convergence under this control law; may be given again."] = None,

@@ -129,6 +129,16 @@ def show(arm: Arm, out: Console) -> None:
         out.print(f"[{colour}]{severity}[/] {escape(who)}: {escape(message)}", soft_wrap=True)
 
 
+def describe(arm: Arm) -> list[str]:
+    """The lines that ``holdfast describe`` prints where no terminal says how wide it is."""
+    from holdfast.present.terminal import Screen
+
+    out = Screen()
+    with out.capture() as captured:
+        show(arm, out)
+    return [line.rstrip() for line in captured.get().splitlines()]
+
+
 def library() -> list[dict[str, Any]]:
     """The built-in arms."""
     entries = [arms.about(name) for name in arms.names()]

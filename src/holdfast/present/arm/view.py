@@ -12,6 +12,7 @@ from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task, plane_normal
+from holdfast.arms.arm_file import write_arm as save
 from holdfast.arms.spec import default_task
 from holdfast.cell.cell import Cell
 from holdfast.errors import InputError
@@ -24,6 +25,8 @@ from holdfast.present.cell import bodies
 from holdfast.regions.region import Region
 from holdfast.report import viewer
 from holdfast.report.viewer import Scene, numbers
+
+__all__ = ["page", "picture", "save", "scene"]
 
 Array = NDArray[np.float64]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -12,6 +14,7 @@ from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.single_points import explain
 from holdfast.present.assessment import method
 from holdfast.present.assessment.facts import Facts
+from holdfast.present.assessment.sections import gain
 from holdfast.report import figures as drawing
 from holdfast.report import page, scenes
 from holdfast.report.page import Callout, Cell, Page, Section
@@ -121,9 +124,15 @@ def _alerts(f: Facts) -> list[Callout]:
     return [Callout(text + " Run the same command again to resume.", "bad", "This run is not complete.")]
 
 
-def figures(assessment: Assessment, threshold: float | None = None) -> dict[str, Figure]:
-    """The arm and the region on the left, the distribution on the right; 1200 x 520 px at 100 dpi."""
+def drawings(assessment: Assessment, threshold: float | None = None) -> dict[str, Callable[[], Figure]]:
+    """The arm with the region, and the cumulative distribution where there are finite values."""
     facts = Facts(assessment, threshold)
+    distribution = {"cdf": partial(gain.cdf_figure, facts)} if facts.drawable else {}
+    return {"overview": partial(overview, facts), **distribution}
+
+
+def overview(facts: Facts) -> Figure:
+    """The arm and the region on the left, the distribution on the right; 1200 x 520 px at 100 dpi."""
     view = facts.side
     with drawing.style():
         figure = Figure(figsize=(12, 5.2))
@@ -135,18 +144,19 @@ def figures(assessment: Assessment, threshold: float | None = None) -> dict[str,
         if np.isfinite(scene.values).any():
             scenes.color_bar(figure, scene, facts.scale, [left], facts.axis_label)
         if facts.drawable:
+            best = facts.a.optimised
             drawing.draw_cdf(
                 right,
-                facts.curves,
+                facts.curves if best is None or not best.reached else gain.gain_curves(facts, best),
                 facts.marks,
                 xlabel=facts.axis_label,
                 ylabel=f"fraction of {facts.noun}s below",
                 log=facts.log,
             )
             right.set_title(f"P({facts.condition}) = {interval(facts.answer)}" if facts.decided else "")
-            drawing.legend_below(figure, right, 4)
+            drawing.legend_below(figure, right, 2)
         else:
             what = "the index is infinite everywhere" if facts.d.reached else "no configuration found"
             right.text(0.5, 0.5, what, ha="center", va="center", color=drawing.SOFT)
             right.set_axis_off()
-        return {"overview": drawing.finished(figure)}
+        return drawing.finished(figure)

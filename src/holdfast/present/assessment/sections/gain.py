@@ -74,14 +74,8 @@ def _table(f: Facts, best: Distribution) -> Table:
 
 def gain_figure(f: Facts, best: Distribution) -> Figure:
     """Left: the two cumulative distributions. Right: both values of each pose, sorted by the first (Figs. 6 and 7)."""
-    ends = [x for d in (f.d, best) for x in (d.lowest, d.highest) if np.isfinite(x)]
-    low = min(0.0, *ends) if not f.log else min(ends)
-    axis = (np.geomspace if f.log else np.linspace)(low, max(ends) * 1.02, 400)
-    band = best.band()
-    curves = [
-        Curve(axis, best.cdf(axis), f"after, 95 % band {half_width(band)}", band=band),
-        Curve(axis, f.d.cdf(axis), "before: as inverse kinematics found them", second=True),
-    ]
+    curves = gain_curves(f, best)
+    axis = curves[0].x
     with figures.style():
         figure = Figure(figsize=(figures.WIDTH, 3.9))
         left, right = figure.subplots(1, 2)
@@ -104,4 +98,31 @@ def gain_figure(f: Facts, best: Distribution) -> Figure:
                 right.set(yscale="log", ylim=(None, None))
             right.set_title("Each pose before (line) and after (dots)")
         figures.legend_below(figure, left)
+        return figures.finished(figure)
+
+
+def gain_curves(f: Facts, best: Distribution) -> list[Curve]:
+    """The distributions after and before choosing configurations over one axis, each with its 95 % band."""
+    ends = [x for d in (f.d, best) for x in (d.lowest, d.highest) if np.isfinite(x)]
+    low = min(0.0, *ends) if not f.log else min(ends)
+    axis = (np.geomspace if f.log else np.linspace)(low, max(ends) * 1.02, 400)
+    samples = ((best, "after: the best configurations", False), (f.d, "before: as inverse kinematics found them", True))
+    return [
+        Curve(axis, d.cdf(axis), f"{label}, 95 % band {half_width(d.band())}", second=second, band=d.band())
+        for d, label, second in samples
+    ]
+
+
+def cdf_figure(f: Facts) -> Figure:
+    """The cumulative distribution with its 95 % band; before and after choosing configurations if the run was optimised."""
+    best = f.a.optimised
+    curves = f.curves if best is None or not best.reached else gain_curves(f, best)
+    with figures.style():
+        figure = Figure(figsize=(7.2, 4.8))
+        axes = figure.subplots()
+        shown = [mark for mark in f.marks if mark.x <= curves[0].x[-1]]
+        figures.draw_cdf(axes, curves, shown, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", log=f.log)
+        lost = f", {f.d.unreached:,} of them not reached" if f.d.unreached else ""
+        axes.set_title(f"{figures.plain(f.a.arm.name, 30)}: {f.d.samples:,} {f.noun}s{lost}")
+        figures.legend_below(figure, axes, 1)
         return figures.finished(figure)

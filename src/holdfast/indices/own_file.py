@@ -1,0 +1,109 @@
+"""Indices of one's own that a file holds, written as ``module:function``, with a digest of their source."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib.util
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.errors import InputError
+from holdfast.failures import FailureSpec
+from holdfast.indices.formula import CustomIndex, Formula
+
+
+class FileIndex(CustomIndex):
+    """An index whose formula is a function of a Python file.
+
+    Attributes:
+        digest: SHA-256 of the source of the function and of all that it uses of its file.
+    """
+
+    slug = ""
+
+    def __init__(self, label: str, formula: Formula, digest: str, arm: Arm, task: Any, **options: Any) -> None:
+        facts = {key: getattr(formula, key) for key in ("better", "unit", "bound") if hasattr(formula, key)}
+        super().__init__(formula, arm, task, name=label, **facts, **options)
+        self.slug, self.digest = label, digest
+
+    def with_failures(self, failures: FailureSpec) -> FileIndex:
+        """See :meth:`Index.with_failures`."""
+        return FileIndex(self.slug, self._formula, self.digest, self.arm, self.task, failures=failures)
+
+
+def load_index(
+    arm: Arm,
+    task: str | Task | Sequence[str] = "pose",
+    *,
+    function: str,
+    failures: FailureSpec = "single",
+    length: float | None = None,
+) -> FileIndex:
+    """Load the index ``module:function`` from the current folder, or else from an installed module.
+
+    Raises:
+        InputError: There is no such file or function, or the file cannot be run.
+    """
+    module, _, name = function.partition(":")
+    file = _find(module, function)
+    try:
+        text = file.read_text(encoding="utf-8")
+        digest = source_digest(text, name)
+        made = ModuleType(module)
+        made.__file__ = str(file)
+        sys.path.insert(0, str(Path.cwd()))
+        try:
+            exec(compile(text, file, "exec"), made.__dict__)
+        finally:
+            sys.path.remove(str(Path.cwd()))
+    except Exception as error:  # a file of somebody's own may raise anything
+        raise InputError(f"index '{function}': '{file.name}' cannot be run ({type(error).__name__}: {error})") from error
+    formula = getattr(made, name, None)
+    if not callable(formula):
+        raise InputError(f"index '{function}': '{file.name}' has no function '{name}'; define it there")
+    return FileIndex(function, formula, digest, arm, task, failures=failures, length=length)
+
+
+def _find(module: str, label: str) -> Path:
+    local = Path.cwd() / (module.replace(".", "/") + ".py")
+    if local.is_file():
+        return local
+    try:
+        spec = importlib.util.find_spec(module)
+    except (ImportError, ValueError):
+        spec = None
+    if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
+        raise InputError(f"index '{label}' is not built in, and there is no '{local.name}' in the current folder; run it there")
+    return Path(spec.origin)
+
+
+def source_digest(text: str, name: str) -> str:
+    """Compute the SHA-256 of a function and of every statement of its file that it uses, directly or not."""
+    body = ast.parse(text).body
+    needed, used = {name}, set[int]()
+    while True:
+        more = {k for k, node in enumerate(body) if k not in used and _concerns(node, needed)}
+        if not more:
+            break
+        used |= more
+        needed |= {x.id for k in more for x in ast.walk(body[k]) if isinstance(x, ast.Name)}
+    parts = [ast.get_source_segment(text, body[k]) or "" for k in sorted(used)]
+    parts += [ast.unparse(d) for k in sorted(used) for d in getattr(body[k], "decorator_list", [])]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def _concerns(node: ast.stmt, needed: set[str]) -> bool:
+    """A definition concerns its name, an import the names that it binds, any other statement all names in it."""
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        return node.name in needed
+    if isinstance(node, ast.If) and "__name__" in ast.unparse(node.test):
+        return False
+    names = {x.id for x in ast.walk(node) if isinstance(x, ast.Name)}
+    aliases = [x for x in ast.walk(node) if isinstance(x, ast.alias)]
+    return bool(names & needed) or any(x.name == "*" or (x.asname or x.name.split(".")[0]) in needed for x in aliases)

@@ -1,0 +1,65 @@
+"""Studies that kept counts are read as assessments; arms are written to files; large studies have fewer chunks."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.engine import Study, Threads
+from holdfast.studies import study_file
+from holdfast.studies.template import choose_chunk
+
+
+def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
+    """Oracle: the assessment of the same poses, whose values are exact."""
+    path = tmp_path / "s.yaml"
+    path.write_text(
+        "{poses: 1100, chunk: 1024, seed: 5, arms: [planar-3r], assess: {restarts: 5, keep: counts, optimise: true}}"
+    )
+    asked = study_file.read(path)
+    study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells)
+    study.run(asked.cells, Threads(1))
+    counted = hf.load(tmp_path / "out")
+    rows = hf.assess(counted.arm, counted.region, counted.index, poses=1100, seed=5, restarts=5, optimise=True)
+    assert (counted.poses, counted.complete, counted.kept) == (1100, True, False)
+    np.testing.assert_array_equal(counted.worst_counts, rows.worst_counts)
+    np.testing.assert_array_equal(counted.optimised_worst_counts, rows.optimised_worst_counts)
+    for optimised in (False, True):
+        edges = counted.of(optimised).edges[5:-2:97]
+        np.testing.assert_array_equal(counted.cdf(edges, optimised), rows.cdf(edges, optimised))
+    curves = counted.plot("cdf").axes[0].get_lines()[:2]
+    for curve, optimised in zip(curves, (True, False), strict=True):
+        x, share = curve.get_data()
+        np.testing.assert_allclose(share, counted.cdf(x, optimised), atol=1e-12)
+        assert np.abs(share - rows.cdf(x, optimised)).max() < 0.02
+
+
+@pytest.mark.parametrize(("name", "ending"), [("planar-3r", "yaml"), ("pa10-9dof", "yaml"), ("panda", "urdf")])
+def test_a_saved_arm_has_the_same_fingerprint(name, ending, tmp_path):
+    arm = hf.arms.load(name)
+    assert hf.arms.resolve(str(arm.save(tmp_path / f"arm.{ending}"))).fingerprint == arm.fingerprint
+
+
+def test_a_table_of_an_arm_of_a_urdf_file_keeps_its_masses(tmp_path):
+    arm = hf.arms.load("panda").with_payload(hf.arms.load("panda").links[3])
+    again = hf.arms.resolve(str(arm.save(tmp_path / "arm.yaml")))
+    q = np.random.default_rng(1).uniform(-1, 1, (5, arm.n))
+    np.testing.assert_allclose(again.forward_kinematics(q), arm.forward_kinematics(q), atol=1e-12)
+    np.testing.assert_allclose(again.gravity_torque(q), arm.gravity_torque(q), atol=1e-11)
+    with pytest.raises(hf.InputError, match=r"ends in \.urdf or \.yaml"):
+        arm.save(tmp_path / "arm.txt")
+
+
+def test_an_arm_describes_itself_as_the_command_does(cli):
+    code, out, _ = cli("describe", "planar-3r")
+    assert code == 0
+    assert [line.rstrip() for line in out.splitlines()] == hf.arms.load("planar-3r").describe()
+
+
+def test_a_large_study_has_at_most_a_thousand_chunks(tmp_path, cli):
+    code, _, err = cli("study", "new", str(tmp_path / "s.yaml"), "--arm", "planar-3r", "--poses", "1e7")
+    assert code == 0, err
+    (cell,) = study_file.read(tmp_path / "s.yaml").cells
+    assert (cell.rows, cell.chunk % 1024, cell.count <= 1000) == (10**7, 0, True)
+    assert choose_chunk(2000) == 500
