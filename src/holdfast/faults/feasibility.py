@@ -113,8 +113,8 @@ def feasible(
     if held and ranges:
         return Feasibility("unknown", "locks and reduced ranges together need where the arm is: give at")
     if within is not None:
-        left_over = Degraded(arm, locked=held, ranges=ranges) if parts else None
-        tilted = _in_cone(arm, left_over, pose, as_task(arm, rows), within, restarts, tolerance)
+        remaining = Degraded(arm, locked=held, ranges=ranges) if parts else None
+        tilted = _in_cone(arm, remaining, pose, as_task(arm, rows), within, restarts, tolerance)
         if not len(tilted):
             return Feasibility("not found", f"no configuration of the goal was found {what}")
         return Feasibility("yes", f"the goal is reached {what}", tilted[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,8 +10,16 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.cli.groups import Chain, Touched
-from holdfast.cli.laws import TARGET_HELP, CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, law_of
-from holdfast.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption, TaskOption
+from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, law_of
+from holdfast.cli.options import (
+    TARGET_HELP,
+    ArmArgument,
+    FailureOption,
+    JsonOption,
+    MotionCsvOption,
+    StartDegreesOption,
+    TaskOption,
+)
 from holdfast.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.errors import InputError
 from holdfast.grammar import measures
@@ -130,13 +139,13 @@ def command(
     printed(result, json_, files)
 
 
-def _refuse(others: dict[str, object], with_: str = "--faults, --notice or --record") -> None:
+def _refuse(others: Mapping[str, object], with_: str = "--faults, --notice or --record") -> None:
     given = next((name for name, value in others.items() if value), None)
     if given is not None:
         raise InputError(f"{given} does not go with {with_}; leave it out")
 
 
-def _played(arm: Arm, file: Path, locks: list[str], limit: str | None, servos: hf.Servos, touched: Touched) -> Result:
+def _played(arm: Arm, file: Path, locks: list[str], limit: str | None, servos: hf.Servos, touched: Touched) -> hf.Execution:
     """A motion of a file carried out with joints that lock on the way."""
     from holdfast.diagnosis.foresight.motions import read_motion as read_record
     from holdfast.studio.motions import read_motion as read_table
