@@ -30,7 +30,7 @@ FACTOR, ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors 
 OFF_RATE = 0.01  # of the rate: so much may a record differ from its bounds
 _HOUR = 3600.0
 _UNSEALED_FORMAT, _FORMAT = 1, 2  # the first has no digest
-_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
+_JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
 _LARGEST_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
 
 
@@ -151,7 +151,7 @@ class Bounds(Result):
             InputError: A value of the wrong length or size; the message names it.
         """
         n = len(self.joints)
-        vectors = {name: getattr(self, name) for name in _VECTORS}
+        vectors = {name: getattr(self, name) for name in _JOINT_VECTORS}
         for name, value in vectors.items():
             if value.shape != (n,):
                 raise InputError(f"{name} has shape {value.shape}; it must be ({n},), one value for each joint")
@@ -200,7 +200,7 @@ def load(file: str | Path) -> Bounds:
         if "scales" not in data:  # files of earlier versions
             data["scales"] = [1.0] * len(data["joints"])
         data.setdefault("change", data["torque"])
-        for name in _VECTORS:
+        for name in _JOINT_VECTORS:
             data[name] = np.array([_number(x) for x in data[name]], dtype=np.float64)
         for name in ("position", "angle", "rate", "factor", "hours"):
             data[name] = _number(data[name])

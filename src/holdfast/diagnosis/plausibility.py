@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 _TURN = 2 * np.pi
 _TURN_TOLERANCE_RAD = 0.5  # a leap within this distance of whole turns is a wrapped angle, no motion
 _LEAST_TRAVEL = 0.05  # rad or m: a joint that is asked to move less shows no ratio
-_RATIOS = {
+_KNOWN_RATIOS = {
     180 / np.pi: "q seems to be in degrees and q_ref in radians",
     np.pi / 180: "q_ref seems to be in degrees and q in radians",
     1000.0: "q seems to be in mm and q_ref in m",
@@ -27,14 +27,15 @@ _RATIOS = {
 }
 _RATIO_TOLERANCE = 0.1
 _RATIO_CORRELATION = 0.98
-_FOLLOWS, _FOLLOWS_ANOTHER = 0.9, 0.99  # correlations of a joint with its own and with another joint's reference
+_FOLLOWING_CORRELATION = 0.9  # least correlation of a joint with its own reference
+_CROSS_CORRELATION = 0.99  # correlation with another joint's reference that names a swapped order
 _TORQUE_CORRELATION = 0.97
 _LEAST_SCALE, _LARGEST_SCALE = 0.25, 4.0  # of a recorded torque to that of the model
-_LOADED = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
-_CARRYING = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
+_LEAST_LOAD = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
+_LEAST_GRAVITY_SHARE = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
 _CONFIGURATIONS = 200  # at which gravity torques are computed
 _CHECKED_S = 60.0  # of the logs: more change nothing
-_UNEXPLAINED = 0.9  # of the squared torques: a model that leaves more of them explains none
+_UNEXPLAINED_FRACTION = 0.9  # of the squared torques: a model that leaves more of them explains none
 
 
 def prepare_log(arm: Arm, log: Log) -> Log:
@@ -49,7 +50,7 @@ def prepare_log(arm: Arm, log: Log) -> Log:
     log = _join_angles(arm, log)
     for name, wanted, measured in zip(arm.joint_names, log.q_ref.T, log.q.T, strict=True):
         ratio, correlation = _compare(wanted, measured)
-        for known, advice in _RATIOS.items():
+        for known, advice in _KNOWN_RATIOS.items():
             if abs(ratio / known - 1) < _RATIO_TOLERANCE and abs(correlation) > _RATIO_CORRELATION:
                 raise InputError(f"q of '{name}' moves {ratio:.3g} times as far as its q_ref; {advice}")
     return log
@@ -65,8 +66,8 @@ def require_following(arm: Arm, logs: Sequence[Log]) -> None:
         moving = [k for k in range(arm.n) if np.ptp(log.q_ref[np.isfinite(log.q_ref[:, k]), k]) > _LEAST_TRAVEL]
         for k in moving:
             name, measured = arm.joint_names[k], log.q[:, k]
-            if abs(_compare(log.q_ref[:, k], measured)[1]) < _FOLLOWS:
-                others = [j for j in moving if j != k and _compare(log.q_ref[:, j], measured)[1] > _FOLLOWS_ANOTHER]
+            if abs(_compare(log.q_ref[:, k], measured)[1]) < _FOLLOWING_CORRELATION:
+                others = [j for j in moving if j != k and _compare(log.q_ref[:, j], measured)[1] > _CROSS_CORRELATION]
                 advice = (
                     f"it follows that of '{arm.joint_names[others[0]]}', so give the joints in the arm's order"
                     if others
@@ -101,7 +102,7 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
     recorded = model - residual
     recorded_square, model_square, product = (recorded**2).sum(0), (model**2).sum(0), (recorded * model).sum(0)
     gravity = _largest_gravity_torques(arm)
-    significant = (model_square > len(model) * (_LOADED * gravity) ** 2) & (gravity > _CARRYING * gravity.max())
+    significant = (model_square > len(model) * (_LEAST_LOAD * gravity) ** 2) & (gravity > _LEAST_GRAVITY_SHARE * gravity.max())
     correlation = product / np.sqrt(np.maximum(recorded_square * model_square, np.finfo(np.float64).tiny))
     scale = product / np.maximum(model_square, np.finfo(np.float64).tiny)
     reversed_joints = significant & (correlation < -_TORQUE_CORRELATION)
@@ -124,7 +125,7 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
             "joints in N m and N, not currents, motor torques or mN m"
         )
     unexplained = (recorded_square + model_square - 2 * product)[significant].sum()
-    if unexplained > _UNEXPLAINED * recorded_square[significant].sum() and significant.any():
+    if unexplained > _UNEXPLAINED_FRACTION * recorded_square[significant].sum() and significant.any():
         raise InputError(
             "the arm's model explains none of the recorded torques; check sign, unit and order of the joints, the mounting of "
             "the arm and its payload"

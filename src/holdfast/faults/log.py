@@ -21,7 +21,7 @@ _NEEDED = ("t", "q_ref", "q")
 _CLOCK = 1e6  # s: later times are those of a clock
 _LEAST = 40.0  # Hz: the observer's own rate, below which it says nothing
 _SPARSE = 20  # times as many samples as there are: longer gaps are between records, not in one
-_UNEVEN = 0.01  # of the period: time stamps that differ less from even ones are even
+_UNEVEN_FRACTION = 0.01  # of the period: time stamps that differ less from even ones are even
 _BEYOND, _FASTER = 0.5, 2.0  # rad or m beyond a limit, and of a speed limit: such references are in other units
 
 
@@ -88,7 +88,7 @@ class Log:
                     object.__setattr__(self, name, whole)
         else:
             even = np.linspace(t[0], t[-1], len(t))
-            if np.abs(t - even).max() > _UNEVEN / self.rate and _bend(_at(even, t, self.q_ref)) < _bend(self.q_ref):
+            if np.abs(t - even).max() > _UNEVEN_FRACTION / self.rate and _bend(_at(even, t, self.q_ref)) < _bend(self.q_ref):
                 object.__setattr__(self, "t", even)
                 for name in ("q_ref", "q", "tau"):
                     if (value := getattr(self, name)) is not None:

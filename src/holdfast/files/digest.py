@@ -8,18 +8,18 @@ from typing import Any
 
 from holdfast.errors import InputError
 
-_KEY = ',\n  "digest": "'
+_DIGEST_KEY = ',\n  "digest": "'
 
 
 def seal_document(data: dict[str, Any]) -> str:
     """Return the text of a JSON object whose last entry is the SHA-256 digest of the text before it."""
     body = json.dumps(data, indent=2, allow_nan=False).removesuffix("\n}")
-    return f'{body}{_KEY}{_digest_of(body)}"\n}}\n'
+    return f'{body}{_DIGEST_KEY}{_digest_of(body)}"\n}}\n'
 
 
 def is_sealed(text: str) -> bool:
     """Return whether a text ends like one of :func:`seal_document`."""
-    return _KEY in text
+    return _DIGEST_KEY in text
 
 
 def check_seal(text: str) -> None:
@@ -28,8 +28,8 @@ def check_seal(text: str) -> None:
     Raises:
         InputError: The digest is missing or does not match.
     """
-    body, _, _ = text.rpartition(_KEY)
-    if text != f'{body}{_KEY}{_digest_of(body)}"\n}}\n':
+    body, _, _ = text.rpartition(_DIGEST_KEY)
+    if text != f'{body}{_DIGEST_KEY}{_digest_of(body)}"\n}}\n':
         raise InputError("its digest does not match its content; the file was changed after it was written")
 
 

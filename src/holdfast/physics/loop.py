@@ -33,7 +33,7 @@ REST = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
 STILL_FOR = 0.1  # 1/Ke: for so long, without a break
 TIME_LIMIT = 200.0  # 1/Ke
 NEAR = 0.1  # of the motion's extent: a return that misses by more is none
-DRIFT = 1e-3  # of the motion's extent: what the last period may differ from the one before it by
+DRIFT_FRACTION = 1e-3  # of the motion's extent: what the last period may differ from the one before it by
 LEAST_EXTENT = 1e-3  # rad (and m): a smaller motion is not taken for a repeated one
 
 
@@ -234,7 +234,7 @@ def _verdict(q: Array, rate: float, gain: float, turning: NDArray[np.bool_]) -> 
         before = q[last - period - 1], q[last - period], q[np.minimum(last - period + 1, len(q) - 1)]
         earlier = before[1] + shift * (before[2] - before[0]) / 2 + shift**2 * (before[2] - 2 * before[1] + before[0]) / 2
         missed = float(np.linalg.norm(_wrapped(q[last] - earlier, turning), axis=1).max())
-        if missed < DRIFT * extent * min(period / rate * gain, 1.0):
+        if missed < DRIFT_FRACTION * extent * min(period / rate * gain, 1.0):
             return "moving", "none"
     return undecided
 

@@ -31,8 +31,8 @@ FINEST_SHARE = 2.5e-4  # of a path: how closely the end of a motion along it is 
 _STILL = 1e-7  # of a path: a step along the self-motion, nearly in place, so that places increase
 _KEPT = 60  # configurations of a place where a path is followed as far as possible
 _BENT = 0.25  # of a step, by which its middle may be off the straight line
-_SPREADS = 8  # along the self-motion, before the end counts as reached
-_LAYERS = 4000
+_MAX_SPREADS = 8  # along the self-motion, before the end counts as reached
+_MAX_LAYERS = 4000
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ def continue_path(
     some = _spread(first, np.zeros(len(first)), _KEPT)
     layers, came, share = [first[some]], [some], [0.0]
     cost, step, spreads, since = np.zeros(len(some)), stride, 0, 0.0
-    while share[-1] < 1 and not space.spent and len(layers) < _LAYERS:
+    while share[-1] < 1 and not space.spent and len(layers) < _MAX_LAYERS:
         place = min(share[-1] + step, 1.0)
         after, source, total = _next_layer(
             solver, space, metric, layers[-1], cost, path.pose(np.array([place]))[0], copies, rng
@@ -152,7 +152,7 @@ def continue_path(
                 spreads, since = 0, place
         elif step > FINEST_SHARE:
             step /= 4
-        elif copies and spreads < _SPREADS:
+        elif copies and spreads < _MAX_SPREADS:
             spreads, step = spreads + 1, _STILL
         else:
             break

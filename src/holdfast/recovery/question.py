@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-NARROWEST = 1e-4  # rad, of a cone that the tool's axis may be in
+NARROWEST_CONE_RAD = 1e-4  # rad, of a cone that the tool's axis may be in
 SAME = 1e-6  # rad and m: a joint this near to its angle is there
 
 
@@ -118,10 +118,10 @@ def _position_of(arm: Arm, task: str | Task | Sequence[str] | None, path: Path |
     Raises:
         InputError: The angle is out of bounds, there is a tool path, or the task does not prescribe the whole position.
     """
-    if not NARROWEST <= within < np.pi:
+    if not NARROWEST_CONE_RAD <= within < np.pi:
         raise InputError(
-            f"within is {within:g} rad; it must be from {NARROWEST:g} rad to below pi (180 deg); for a single direction use "
-            "task='pointing'"
+            f"within is {within:g} rad; it must be from {NARROWEST_CONE_RAD:g} rad to below pi (180 deg); for a single "
+            "direction use task='pointing'"
         )
     if path is not None:
         raise InputError("within is of a goal, and a tool path has rows of its own; leave out within or the path")

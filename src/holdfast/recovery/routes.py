@@ -25,7 +25,7 @@ _WALKS = 24  # the same where rows are kept exactly
 _QUIET = 20  # rounds of a tree in which hardly a walk leads to where it is not yet: it fills all that it can get to
 _FRESH = 0.2  # of the reach, how far from every node of its tree a walk must lead to count
 _FEW = 4  # walks that do so in these rounds, of 960
-_SEARCHED = 8  # goals that are searched for one by one
+_MAX_SEARCHED = 8  # goals that are searched for one by one
 _IDLE = 8  # rounds without a gain before the way counts as short
 
 
@@ -103,7 +103,7 @@ def reachable_goals(space: Space, metric: Metric, start: Array, goals: Array, rn
     """(G,) True for those goals (G, n) to which a motion from start (n,) was found, straight or by one search each."""
     goals = start + space.difference(goals, start)
     found = space.walk(metric, np.repeat(start[None], len(goals), axis=0), goals - start)[1]
-    for _ in range(_SEARCHED):
+    for _ in range(_MAX_SEARCHED):
         fresh = found.copy()
         while fresh.any() and not found.all():  # what can be got to from what was just found
             away = np.flatnonzero(~found)

@@ -28,7 +28,7 @@ Frame = Literal["base", "tool"]
 
 TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
 _STEPS = 60
-TILT = "tilt of tool z"
+TILT_ROW = "tilt of tool z"
 _FAR = 1e300  # rad and m, for a limit that is not there: a loop takes an infinite input for a missing one
 _LIGHT = 1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
 
@@ -59,7 +59,7 @@ class Rows:
         """Return the rows of a task, with the tilt of the tool's z axis as one more row if ``within`` (rad) is given."""
         matrix = np.eye(6) if task.invariant else task.rows
         linear, angular = task.frame, "tool" if task.invariant else task.frame
-        names = [_name(row, k, linear, angular) for k, row in enumerate(matrix)] + [TILT] * (within is not None)
+        names = [_name(row, k, linear, angular) for k, row in enumerate(matrix)] + [TILT_ROW] * (within is not None)
         return cls(tuple(names), matrix, "base" if task.invariant else linear, angular, within)
 
     @property

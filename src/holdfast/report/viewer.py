@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 _HALF = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
 _WIDE, _TALL = 560, 400  # pixels of the drawing
-_NOTE = '<p class="view3d-note view3d-once">{}</p>'
+_VIEW_NOTE = '<p class="view3d-note view3d-once">{}</p>'
 _BODY = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
 
@@ -70,7 +70,7 @@ class Scene:
             f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas>'
             '</div>\n<div class="view3d-controls"></div>\n'
             + (f'<p class="view3d-legend">{" ".join(f"<span>{x}</span>" for x in legend)}</p>\n' if legend else "")
-            + "".join(_NOTE.format(escape(line)) + "\n" for line in self.notes)
+            + "".join(_VIEW_NOTE.format(escape(line)) + "\n" for line in self.notes)
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in lines)
             + '<p class="view3d-hint">Where JavaScript is on, this picture can be turned.</p>\n'
             f'<script type="application/json">{text}</script>\n{_BODY.format(key, parts)}\n</div>'
@@ -100,7 +100,7 @@ def with_library(html: str) -> str:
         seen.add(found[1])
         return found[0]
 
-    for part in (_BODY, _NOTE):
+    for part in (_BODY, _VIEW_NOTE):
         html = re.sub(re.escape(part).replace(r"\{\}", "(.*?)"), once, html)
     styled = html.replace("</head>", f"<style>\n{template('viewer.css')}</style>\n</head>", 1)
     before, _, after = styled.rpartition("</body>")

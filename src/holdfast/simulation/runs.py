@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
-CHECKED = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
+CHECKED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
 
 
 class Outcome(IntEnum):
@@ -224,7 +224,7 @@ class Runs(Result):
     def checked_until(self, k: int = 0) -> float:
         """Return the time up to which run k is checked for contacts, s or cycles: its end, unless it repeats its motion."""
         end, repeats = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == Outcome.MOVING
-        return min(end, CHECKED / self.law.gain) if repeats else end
+        return min(end, CHECKED_SPAN / self.law.gain) if repeats else end
 
     def counts(self) -> dict[str, int]:
         """How many runs ended in each way."""

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_LITTLE = 0.1  # of a loss, and of the value that is lost
+_SMALL_FRACTION = 0.1  # of a loss, and of the value that is lost
 _ZERO = 1e-9  # of an index after a failure that ends the task: rounding
 _BLOCK = 512  # poses worked on together by one thread; no result depends on it
 
@@ -164,7 +164,7 @@ class Optima(Optimum, Result):
         losses[k] = -np.inf
         loser, gain = int(losses.argmax()), float(np.median(lowest[:, 0] - (sign * before).min(axis=1)))
         hopeless = abs(new[k]) <= _ZERO and losses[loser] > 0
-        costly = losses[loser] > _LITTLE * abs(old[loser]) and gain <= _LITTLE * losses[loser]
+        costly = losses[loser] > _SMALL_FRACTION * abs(old[loser]) and gain <= _SMALL_FRACTION * losses[loser]
         if 2 * (worst == k).sum() < len(worst) or not (hopeless or costly):
             return None
         return Cap(

@@ -18,7 +18,7 @@ from holdfast.engine.store import Store
 from holdfast.kernels.threads import pool
 
 _ENOUGH_S = 0.2  # of processor time: what whole chunks are tried for, so that one slow chunk does not decide
-_WRITTEN = 8  # chunks written to a folder for a while, to know what that takes
+_CHUNKS_WRITTEN = 8  # chunks written to a folder for a while, to know what that takes
 
 
 @dataclass(frozen=True)
@@ -92,10 +92,10 @@ def _seconds_of_a_write(cell: Cell, columns: Mapping[str, NDArray[Any]]) -> floa
         return 0.0
     size = len(next(iter(columns.values())))
     with TemporaryDirectory() as folder:
-        store = Store.create(Path(folder) / "tried", {}, cell.job.columns(), rows=_WRITTEN * size, chunk=size)
+        store = Store.create(Path(folder) / "tried", {}, cell.job.columns(), rows=_CHUNKS_WRITTEN * size, chunk=size)
         with store.writing():
             clock = [time.process_time()]
-            for k in range(_WRITTEN):
+            for k in range(_CHUNKS_WRITTEN):
                 store.write(k, columns)
                 clock.append(time.process_time())
             return float(np.median(np.diff(clock)))

@@ -25,7 +25,7 @@ from holdfast.errors import InputError
 from holdfast.grammar import measures
 from holdfast.present.results import drawn, printed
 
-_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by how a number of --error-limit ends
+_LIMIT_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by how a number of --error-limit ends
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -175,7 +175,7 @@ def _error_limit(text: str) -> tuple[float, float]:
     """--error-limit in rad and m; a unit that is not given has no limit."""
     found = {"rad": np.inf, "m": np.inf}
     for part in text.split(","):
-        unit = next((kind for end, kind in _UNITS.items() if part.strip().endswith(end)), None)
+        unit = next((kind for end, kind in _LIMIT_UNITS.items() if part.strip().endswith(end)), None)
         if unit is None:
             raise InputError(f"--error-limit '{text}' has a number without a unit; write it as 2deg, 0.05rad or 2deg,1mm")
         found[unit] = measures("--error-limit", part)[0]

@@ -19,7 +19,7 @@ from typing import Any
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.faults.injector import FaultInjector
 
-_PHYSICS = re.compile(r"mj_(step[12]?|forward(Skip)?|fwd[A-Z]\w+|Euler|RungeKutta|implicit)")
+_PHYSICS_FUNCTIONS = re.compile(r"mj_(step[12]?|forward(Skip)?|fwd[A-Z]\w+|Euler|RungeKutta|implicit)")
 
 
 class PhysicsCalls:
@@ -37,16 +37,16 @@ class PhysicsCalls:
     def watch(self) -> Iterator[None]:
         """Insert the faults in every computation inside a ``with`` block, and take them out after each."""
         key = id(self.injector.data)
-        with _LOCK:
-            if not _WATCHED:
+        with _PATCH_LOCK:
+            if not _WATCHED_MODELS:
                 _rebind(replaced=True)
-            _WATCHED[key] = self
+            _WATCHED_MODELS[key] = self
         try:
             yield
         finally:
-            with _LOCK:
-                del _WATCHED[key]
-                if not _WATCHED:
+            with _PATCH_LOCK:
+                del _WATCHED_MODELS[key]
+                if not _WATCHED_MODELS:
                     _rebind(replaced=False)
 
     def call(self, function: Callable[..., Any], *args: Any, **named: Any) -> Any:
@@ -59,30 +59,30 @@ class PhysicsCalls:
             self.injector.restore()
 
 
-_LOCK = threading.Lock()
-_WATCHED: dict[int, PhysicsCalls] = {}  # by the address of MjData: environments may step in threads
-_REPLACEMENTS: dict[str, tuple[Any, Any]] = {}  # a function of MuJoCo and its replacement, by name
-_BINDINGS: dict[tuple[int, str], tuple[dict[str, Any], str, Any, Any]] = {}  # names in modules that mean such a function
+_PATCH_LOCK = threading.Lock()
+_WATCHED_MODELS: dict[int, PhysicsCalls] = {}  # by the address of MjData: environments may step in threads
+_REPLACED_FUNCTIONS: dict[str, tuple[Any, Any]] = {}  # a function of MuJoCo and its replacement, by name
+_MODULE_BINDINGS: dict[tuple[int, str], tuple[dict[str, Any], str, Any, Any]] = {}  # names in modules that mean such a function
 
 
 def _find_bindings() -> None:
     """Find the names under which modules have the functions; ``from mujoco import mj_step`` makes such a name as well."""
     mujoco = import_mujoco()
-    with _LOCK:
-        for name in () if _REPLACEMENTS else filter(_PHYSICS.fullmatch, dir(mujoco)):
+    with _PATCH_LOCK:
+        for name in () if _REPLACED_FUNCTIONS else filter(_PHYSICS_FUNCTIONS.fullmatch, dir(mujoco)):
             function = getattr(mujoco, name)
-            _REPLACEMENTS[name] = function, _replacement(function)
-        pairs = {id(one): pair for pair in _REPLACEMENTS.values() for one in pair}
+            _REPLACED_FUNCTIONS[name] = function, _replacement(function)
+        pairs = {id(one): pair for pair in _REPLACED_FUNCTIONS.values() for one in pair}
         for module in list(sys.modules.values()):
             space = vars(module) if isinstance(module, ModuleType) else {}
             for name, value in list(space.items()):
                 if id(value) in pairs:
-                    _BINDINGS[id(space), name] = space, name, *pairs[id(value)]
+                    _MODULE_BINDINGS[id(space), name] = space, name, *pairs[id(value)]
 
 
 def _rebind(*, replaced: bool) -> None:
     """Exchange the functions; a name that somebody else has changed stays as it is."""
-    for space, name, function, replacement in _BINDINGS.values():
+    for space, name, function, replacement in _MODULE_BINDINGS.values():
         before, after = (function, replacement) if replaced else (replacement, function)
         if space.get(name) is before:
             space[name] = after
@@ -92,7 +92,7 @@ def _replacement(function: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(function)
     def replacement(*args: Any, **named: Any) -> Any:
         model, data = args[0] if args else named.get("m"), args[1] if len(args) > 1 else named.get("d")
-        watch = _WATCHED.get(id(data))
+        watch = _WATCHED_MODELS.get(id(data))
         if watch is None or model is not watch.injector.model or watch.injector.is_inserted:
             return function(*args, **named)
         return watch.call(function, *args, **named)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from holdfast.indices.index import Index
 
 _LOST = "0 means that some direction of the task is lost"
-_EXPLANATIONS = {
+_INDEX_EXPLANATIONS = {
     "relative-manipulability": f"fraction of the manipulability that is left after the worst failure; 1 means no loss, {_LOST}",
     "manipulability": f"volume of tool velocities at joint rates of norm 1 after the worst failure; {_LOST}",
     "ceiling-fraction": f"1 means as much as the best known arm of this size keeps after the worst failure, {_LOST}",
@@ -22,4 +22,4 @@ _EXPLANATIONS = {
 
 def explain_index(index: Index) -> str:
     """Explain which values of an index are good; empty for an index of the user's own."""
-    return _EXPLANATIONS.get(index.label.partition(":")[0], "")
+    return _INDEX_EXPLANATIONS.get(index.label.partition(":")[0], "")

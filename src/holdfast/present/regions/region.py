@@ -12,7 +12,12 @@ from holdfast.present.printing import Rows
 from holdfast.regions.region import Region
 
 _BOX = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
-_CONE = (*_BOX[:3], ("cosine of the angle from the axis", ""), ("direction about the axis", "deg"), ("turn about z", "deg"))
+_CONE_COLUMNS = (
+    *_BOX[:3],
+    ("cosine of the angle from the axis", ""),
+    ("direction about the axis", "deg"),
+    ("turn about z", "deg"),
+)
 
 
 def sentences(region: Region) -> list[str]:
@@ -27,7 +32,7 @@ def key_table(region: Region) -> Rows:
     if region.draw is not None:
         return Rows(["", ""], [["drawn by", getattr(region.draw[0], "__name__", "a function")]])
     joints = [(f"joint {k + 1}", "") for k in range(len(region.center))]
-    named = {"box": _BOX, "cone": _CONE}.get(region.kind, joints)
+    named = {"box": _BOX, "cone": _CONE_COLUMNS}.get(region.kind, joints)
     rows = []
     for (name, unit), center, size in zip(named, region.center, region.size, strict=True):
         ends = np.array([center - size / 2, center + size / 2])

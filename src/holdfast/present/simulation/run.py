@@ -32,9 +32,9 @@ from holdfast.words import capitalised, number
 
 Array = NDArray[np.float64]
 
-REPEATED = 200.0  # 1/Ke: the part of a motion that repeats itself which is drawn
+REPEATED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is drawn
 _SAMPLES, _FRAMES = 1001, 201
-_DENSITY = 5  # samples of a whole run in 1/Ke, or in a cycle
+_SAMPLE_DENSITY = 5  # samples of a whole run in 1/Ke, or in a cycle
 _MOST_SAMPLES = 20_001
 _REACHED = 1e-5  # an error below it counts as none
 _STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
@@ -103,7 +103,7 @@ class _RunReport:
     @cached_property
     def path(self) -> Path:
         """The whole run, sampled often enough to show every motion of it."""
-        samples = float(self._of("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _DENSITY
+        samples = float(self._of("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _SAMPLE_DENSITY
         return self._sampled(int(np.clip(samples, _SAMPLES, _MOST_SAMPLES)), float(self._of("time")))
 
     def _sampled(self, samples: int, until: float) -> Path:
@@ -118,7 +118,7 @@ class _RunReport:
         """The part of the run that is drawn, sampled."""
         whole, end = self.path, float(self._of("time"))
         if self._of("code") == Outcome.MOVING:
-            end = min(end, REPEATED / self.runs.law.gain)
+            end = min(end, REPEATED_SPAN / self.runs.law.gain)
         elif self._of("code") != Outcome.UNDECIDED:
             away = np.flatnonzero((np.abs(whole.q - whole.q[-1]) > _STILL).any(axis=1))
             if away.size:

@@ -16,7 +16,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 _PATIENCE = 10.0, 20.0  # s for the head of a request: drawn, so that who comes again does not come all at once
-_UNREAD = 512  # connections at once whose peer has not read all that was sent; a page of a station is 0.1 MB
+_MAX_UNREAD_PEERS = 512  # connections at once whose peer has not read all that was sent; a page of a station is 0.1 MB
 _LEAST_READ = 8192  # bytes that a slow peer must read within the patience
 _FILES = 8192  # that the server may have open, where the system lets it
 _LINES = 20  # of the log, a minute
@@ -39,7 +39,7 @@ def files() -> int:
 
 
 def protocols(
-    most: int, patience: tuple[float, float] = _PATIENCE, most_unread: int = _UNREAD
+    most: int, patience: tuple[float, float] = _PATIENCE, most_unread: int = _MAX_UNREAD_PEERS
 ) -> tuple[type[asyncio.Protocol], type[asyncio.Protocol]]:
     """Return the HTTP and the WebSocket protocol of one server, in which no connection can hold memory or a file for ever.
 
