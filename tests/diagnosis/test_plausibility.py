@@ -175,3 +175,13 @@ def test_no_changed_bit_or_digit_of_bounds_is_accepted(crane, healthy, tmp_path,
             hf.diagnosis.load(file)
     file.write_bytes(sound)
     assert np.array_equal(hf.diagnosis.load(file).torque, bounds.torque)
+
+
+def test_a_fast_record_without_torques_is_printed_without_a_warning(crane, healthy):
+    """No sample is slow enough for joint sensors alone, so there is no largest tracking error; warnings are errors here."""
+    bounds = hf.diagnosis.calibrate(crane, changed(healthy, tau=lambda tau: None))
+    t = np.arange(300) / 1000
+    fast = np.stack([2.0 * t, 0.5 + t, 0.8 - t], axis=1)
+    found = hf.diagnosis.diagnose(crane, Log(t=t, q_ref=fast, q=fast + 1e-4), bounds)
+    assert not found.verdict.alarm
+    assert found._presented("tables")[0].rows

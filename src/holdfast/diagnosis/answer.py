@@ -55,14 +55,14 @@ class Diagnosis(Result):
     @cached_property
     def untold(self) -> tuple[str, ...]:
         """Joints that were not asked to move enough to tell whether they are locked: by less than twice their bound."""
-        travel = np.nanmax(self.log.q_ref, axis=0) - np.nanmin(self.log.q_ref, axis=0)
-        few = travel < _ENOUGH * self.bounds.tracking
+        travel = np.fmax.reduce(self.log.q_ref) - np.fmin.reduce(self.log.q_ref)
+        few = ~(travel >= _ENOUGH * self.bounds.tracking)
         return tuple(name for name, little in zip(self.arm.joint_names, few, strict=True) if little)
 
     @cached_property
     def beyond(self) -> tuple[str, ...]:
         """Joints that were asked to move more than 10 % faster than in calibration: the bounds do not hold for them."""
-        speed = np.nanmax(np.abs(np.diff(self.log.q_ref, axis=0)), axis=0) * self.bounds.rate
+        speed = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
         fast = speed > _FASTER * self.bounds.speed + 1e-9
         return tuple(name for name, faster in zip(self.arm.joint_names, fast, strict=True) if faster)
 

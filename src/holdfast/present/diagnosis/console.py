@@ -49,9 +49,9 @@ def tables(found: Bounds | Diagnosis) -> list[Rows]:
     scaled, off = found.scaled, "torque" not in found.signals.levels
     rows = []
     for k, name in enumerate(found.arm.joint_names):
-        torque = "-" if off else number(np.nanmax(scaled.torque[:, k]), 3)
+        torque = "-" if off else number(np.fmax.reduce(scaled.torque[:, k]), 3)
         moved = "too little to tell" if name in found.untold else "yes"
-        rows.append([name, torque, number(np.nanmax(scaled.tracking[:, k]), 3), moved])
+        rows.append([name, torque, number(np.fmax.reduce(scaled.tracking[:, k]), 3), moved])
     return [Rows(["joint", "residual torque", "tracking", "moved"], rows, "largest, in units of the bounds")]
 
 
