@@ -5,6 +5,7 @@ from holdfast.assessment.comparison import load_comparison as load_comparison
 from holdfast.assessment.run import assess as assess
 from holdfast.assessment.run import load as load
 from holdfast.assessment.single_points import Structure as Structure
+from holdfast.assessment.single_points import WeakJoint as WeakJoint
 from holdfast.assessment.single_points import explain as explain
 from holdfast.assessment.single_points import structure as structure
 from holdfast.assessment.single_points import structures as structures

@@ -88,7 +88,7 @@ def check_certificate(
         time_limit: Time limit in seconds, after which the check ends without a result; None: no limit.
 
     Raises:
-        CheckStopped: The time limit was reached.
+        HoldfastError: The time limit was reached; nothing is verified.
         InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra
             ``certify``).
     """
