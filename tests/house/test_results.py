@@ -54,7 +54,7 @@ VALUES = named(
     {
         "": "BrakedDrop Reach",
         "arms": "Builtin DHTable",
-        "assessment": "Structure Upgrade",
+        "assessment": "Structure Upgrade WeakJoint",
         "bench": "Motion Score",
         "control": "Deviations",
         "clearance": "CheckedObject Contact",

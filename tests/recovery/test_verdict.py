@@ -227,7 +227,7 @@ def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
 
 
 def test_what_only_a_search_says_is_argued(three, monkeypatch):
-    monkeypatch.setattr(search, "every_clear", lambda *_: (None, None))
+    monkeypatch.setattr(search, "every_clear", lambda *_: (np.zeros((0, 3)), np.zeros(0, dtype=int), [None]))
     found = hf.recover(three, ["joint2"], HOME, goal=placed(1.5, 0.4, 2.0), task="planar-pose", samples=0)
     assert (found.verdict.answer, found.verdict.kind) == ("argued infeasible", "")
     assert "in 256 starts, which proves nothing" in found.verdict.why
