@@ -9,7 +9,7 @@ from pathlib import Path
 
 import yaml
 
-from tools.house import inner, rules, words
+from tools.house import inner, rules, vocabulary, words
 from tools.house.imports import File, circles, graph, read
 
 ROOT = Path(__file__).parents[2]
@@ -50,6 +50,11 @@ def counted() -> Count:
         "full folders": rules.full_folders(files),
         "inner names": inner.inner_names(ROOT, files),
         "retired words": words.count(words.texts(ROOT, files)),
+        "bare function names": vocabulary.find_bare_functions(files),
+        "repeated classes": vocabulary.find_repeated_classes(files),
+        "one-word constants": vocabulary.find_short_constants(files),
+        "unpacked constants": vocabulary.find_unpacked_constants(files),
+        "vague docstrings": vocabulary.find_vague_docstrings(files),
     }
     lines = {
         "src": sum(file.lines for file in files.values()),
