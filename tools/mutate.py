@@ -42,6 +42,7 @@ COMPARISONS: dict[type, Any] = {
     ast.Gt: (ast.GtE, ast.Lt),
     ast.GtE: (ast.Gt, ast.LtE),
 }
+NO_TESTS = 5  # exit code of pytest
 EXTREMES = {"min": "max", "minimum": "maximum", "argmin": "argmax", "max": "min", "maximum": "minimum", "argmax": "argmin"}
 
 
@@ -124,26 +125,36 @@ def find_failure(root: Path, source: Path, tests: list[str], time_limit: float) 
     finally:  # also where the program itself is stopped
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
-    failures = re.findall(r"^(?:FAILED|ERROR) (\S+)", output, re.MULTILINE)
-    return failures[0] if failures else f"exit code {process.returncode}" if process.returncode else None
+    failures = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", output, re.MULTILINE)
+    if process.returncode in (0, NO_TESTS):
+        return None
+    return failures[0] if failures else f"exit code {process.returncode}"
 
 
 def try_mutations(
     root: Path, mutations: list[Mutation], tests: list[str], time_limit: float
 ) -> Iterator[tuple[Mutation, str | None]]:
-    """Yield each mutation and the test that detects the mutation, or None; without a mutation the tests must pass."""
+    """Yield each mutation and the test that detects the mutation, or None; without a mutation the tests must pass.
+
+    The slow tests (``tests/slow.txt``) run on the mutations that the quick ones do not detect.
+    """
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "src"
         shutil.copytree(root / "src", source, ignore=shutil.ignore_patterns("__pycache__"))
         # Compiled files are compared by content, because two mutations may have the same size and time.
         compileall.compile_dir(source, quiet=1, invalidation_mode=py_compile.PycInvalidationMode.CHECKED_HASH)
-        if failure := find_failure(root, source, tests, time_limit):
+
+        def try_tests() -> str | None:
+            failures = (find_failure(root, source, ["-m", marker, *tests], time_limit) for marker in ("not slow", "slow"))
+            return next(filter(None, failures), None)
+
+        if failure := try_tests():
             raise SystemExit(f"the tests fail without a mutation: {failure}")
         for mutation in mutations:
             mutated = Path(folder) / mutation.file
             original = mutated.read_bytes()
             mutated.write_text(mutation.text, encoding="utf-8")
-            yield mutation, find_failure(root, source, tests, time_limit)
+            yield mutation, try_tests()
             mutated.write_bytes(original)
 
 
@@ -153,13 +164,15 @@ def main() -> None:
     parser.add_argument("package", choices=PACKAGES)
     parser.add_argument("--count", type=int, default=20, help="number of mutations")
     parser.add_argument("--seed", type=int, default=0, help="seed of the random choice")
-    parser.add_argument("--time-limit", type=float, default=120.0, help="seconds for the tests of one mutation")
-    parser.add_argument("--tests", nargs="+", help="test files; the quick tests of the package by default")
+    parser.add_argument(
+        "--time-limit", type=float, default=120.0, help="seconds for the quick, and for the slow, tests of one mutation"
+    )
+    parser.add_argument("--tests", nargs="+", help="test files; the tests of the package by default")
     asked = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped"))  # which removes the temporary copy
     patterns, names = PACKAGES[asked.package]
     files = [file.relative_to(ROOT) for pattern in patterns for file in ROOT.glob(f"src/holdfast/{pattern}.py")]
-    tests = ["-m", "not slow", *(asked.tests or [f"tests/{name}" for name in names])]
+    tests = asked.tests or [f"tests/{name}" for name in names]
     mutations, survivors = choose_mutations(ROOT, files, asked.count, asked.seed), 0
     for mutation, failure in try_mutations(ROOT, mutations, tests, asked.time_limit):
         survivors += failure is None
