@@ -26,6 +26,8 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
     np.testing.assert_array_equal(counted.worst_counts, rows.worst_counts)
     np.testing.assert_array_equal(counted.optimised_worst_counts, rows.optimised_worst_counts)
     for optimised in (False, True):
+        for name in ("lowest", "highest", "mean", "reached", "unreached", "singular"):
+            assert getattr(counted.of(optimised), name) == pytest.approx(getattr(rows.of(optimised), name), rel=1e-12), name
         edges = counted.of(optimised).edges[5:-2:97]
         np.testing.assert_array_equal(counted.cdf(edges, optimised), rows.cdf(edges, optimised))
     curves = counted.plot("cdf").axes[0].get_lines()[:2]
