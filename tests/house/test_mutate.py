@@ -18,7 +18,8 @@ TEST = "import toy\n\ndef test_largest_step():\n    assert toy.largest_step([1, 
 
 
 @pytest.fixture
-def toy(tmp_path):
+def toy(tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # each run of the tests starts in a third of the time
     (tmp_path / "src").mkdir()
     (tmp_path / "src/toy.py").write_text(TOY)
     (tmp_path / "test_toy.py").write_text(TEST)
