@@ -215,7 +215,11 @@ def structural_zero(
 
     Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
     """
+    from holdfast.certificates.checks import need_flint
+
     model = chain.arm(arm)
+    if check:
+        need_flint()
     proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
     if not proof.ok:
         printed(proof, json_)

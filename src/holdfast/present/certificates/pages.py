@@ -42,6 +42,7 @@ def write(
     said = replace(
         story,
         answer=story.answer.replace(UNVERIFIED, _verified(found, check)),
+        lines=story.lines if check is None else check.describe()[:1],
         tables=[by_part(found, check), *(story.tables or [])],
         method=[*story.method, *_how(found, check, file)],
     )
