@@ -23,6 +23,7 @@ from holdfast.reach import samples
 from holdfast.result import Result
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
+from holdfast.words import percent
 
 Array = NDArray[np.float64]
 
@@ -82,27 +83,28 @@ class WorkingRanges(Result):
         arm, written = self.claim.arm, []
         for k, joint in enumerate(arm.joints):
             if (self.ranges[k] != [joint.lower, joint.upper]).any():
-                low, high = (f"{joint.shown[0] * x:.{_decimals(joint.prismatic)}f}" for x in self.ranges[k])
+                low, high = (f"{joint.shown[0] * x + 0.0:.{_decimals(joint.prismatic)}f}" for x in self.ranges[k])
                 written.append(f"{joint.name}={low}..{high}")
         return written
 
     def describe(self) -> list[str]:
-        """Return whether ranges were found, the limiting joint, and how the ranges were found."""
+        """Return whether ranges were found, by which sample, and the limiting joint."""
         arm, k = self.claim.arm, self.claim.arm.joint_index(self.limiting_joint)
         factor, unit = arm.joints[k].shown
         span = f"{factor * self.ranges[k, 0]:.4g} to {factor * self.ranges[k, 1]:.4g} {unit}"
-        sample = f"{self.targets} sampled targets, {self.values} locked values of each joint"
         if self.ok:
             return [
-                f"Found working ranges with which the box passes a sample; nothing is proved by it. {sample}.",
-                f"The limiting joint is {arm.joint_names[k]}: its range of {span} is {self.relative_widths[k]:.0%} of its limits.",
+                f"Found working ranges: the healthy arm reaches all of {self.targets} sampled targets within them, and so does the "
+                f"arm with any joint locked at any of {self.values} sampled values of its range. A sample proves nothing.",
+                f"The limiting joint is {arm.joint_names[k]}: its range of {span} is {percent(float(self.relative_widths[k]))} of "
+                "its limits.",
             ]
-        why = f"the healthy arm reaches {self.healthy} within the ranges"
+        why = f"the healthy arm reaches {self.healthy} of them"
         if self.lost[k]:
-            why += f", and locks of {arm.joint_names[k]} between {span} lose {self.lost[k]}"
+            why += f", and locks of {arm.joint_names[k]}, whose range is {span}, lose {self.lost[k]}"
         return [
-            f"Not found: with the best working ranges {self.passed} of {self.targets} sampled targets pass "
-            f"({self.passed / self.targets:.0%}); {why}."
+            f"Not found: with the best working ranges {self.passed} of {self.targets} sampled targets "
+            f"({percent(self.passed / self.targets)}) are reached whatever locks; {why}."
         ]
 
 
@@ -164,11 +166,12 @@ def find_working_ranges(
         )
     locks, bounds = single_joints(arm, failures), narrowed(arm, working_ranges or {})
     bounds[locks] = np.stack(made_finite(*bounds[locks].T, arm.prismatic[locks]), axis=1)
-    told = {"rotation": rotation, "rpy": rpy, "task": task, "failures": failures}
+
+    narrow = {*locks, *map(arm.joint_index, working_ranges or {})}
 
     def claimed(ranges: Array) -> TolerantClaim:
-        pairs: dict[str | int, tuple[float, float]] = {k: (float(a), float(b)) for k, (a, b) in enumerate(ranges) if k in locks}
-        return tolerant_claim(arm, centre, size, working_ranges={**(working_ranges or {}), **pairs}, **told)  # type: ignore[arg-type]
+        pairs: dict[str | int, tuple[float, float]] = {k: (float(ranges[k, 0]), float(ranges[k, 1])) for k in narrow}
+        return tolerant_claim(arm, centre, size, rotation=rotation, rpy=rpy, task=task, working_ranges=pairs, failures=failures)
 
     search = _Search(claimed(bounds), bounds, targets, values, seed)
     ranges, found = search.widest(margin)
@@ -342,7 +345,7 @@ class _Search:
     def _rounded(self, k: int, pair: Array) -> Array:
         """An interval rounded inwards to what :attr:`WorkingRanges.options` prints; the limits of the arm are kept."""
         joint, (low, high) = self._arm.joints[k], self._bounds[k]
-        if k not in self._claim.locks or (pair == [joint.lower, joint.upper]).all():
+        if (pair == [joint.lower, joint.upper]).all():
             return pair
         digits, factor = _decimals(joint.prismatic), joint.shown[0]
         unit = 1.0 if joint.prismatic else np.pi / 180  # as the command line reads degrees
