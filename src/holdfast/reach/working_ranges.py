@@ -94,10 +94,10 @@ class WorkingRanges(Result):
         span = f"{factor * self.ranges[k, 0]:.4g} to {factor * self.ranges[k, 1]:.4g} {unit}"
         if self.ok:
             return [
-                f"Found working ranges: the healthy arm reaches all of {self.targets} sampled targets within them, and so does the "
-                f"arm with any joint locked at any of {self.values} sampled values of its range. A sample proves nothing.",
-                f"The limiting joint is {arm.joint_names[k]}: its range of {span} is {percent(float(self.relative_widths[k]))} of "
-                "its limits.",
+                f"Found working ranges: the healthy arm reaches all of {self.targets} sampled targets within them, and so does "
+                f"the arm with one joint locked at any of {self.values} sampled values of its range. A sample proves nothing.",
+                f"The limiting joint is {arm.joint_names[k]}: its range of {span} is "
+                f"{percent(float(self.relative_widths[k]))} of its limits.",
             ]
         why = f"the healthy arm reaches {self.healthy} of them"
         if self.lost[k]:
@@ -238,8 +238,10 @@ class _Search:
         poses[:, :linear, 3] = rows[:, :linear]
         if self._claim.rotation is not None:
             poses[:, :3, :3] = self._claim.rotation
-        elif angles := rows.shape[1] - linear:
-            poses[:, :3, :3] = [rpy_rotation(([0, 0, 0] + row[linear:].tolist())[-3:]) for row in rows[:, : linear + angles]]
+        elif rows.shape[1] > linear:  # of a planar pose yaw alone
+            angles = np.zeros((len(rows), 3))
+            angles[:, linear - rows.shape[1] :] = rows[:, linear:]
+            poses[:, :3, :3] = [rpy_rotation(row.tolist()) for row in angles]
         return poses
 
     def enlarge(self, sample: int) -> None:
@@ -281,7 +283,7 @@ class _Search:
         return self._most_held(table, q), False
 
     def _intervals(self, k: int, table: NDArray[np.bool_]) -> Array:
-        """(C, 2) the widest intervals of a joint at whose values all targets survive; of a joint that does not lock, its own."""
+        """(C, 2) the widest intervals of a joint at whose values no target is lost; its bounds if it does not lock."""
         grid, good = self._grids[k], table.all(axis=0)
         if good.all():
             return self._bounds[k][None]
@@ -293,7 +295,7 @@ class _Search:
             grid = np.linspace(grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)], self._values)
             good = self._survives(k, grid)
         runs = np.flatnonzero(np.diff(np.concatenate([[0], good.astype(int), [0]]))).reshape(-1, 2) - [0, 1]
-        inner, outer = grid[runs], grid[np.clip(runs + [-1, 1], 0, len(grid) - 1)]
+        inner, outer = grid[runs], grid[np.clip(runs + np.array([-1, 1]), 0, len(grid) - 1)]
         for _ in range(_HALVINGS if len(runs) else 0):
             middle = (inner + outer) / 2
             passed = self._survives(k, middle.ravel()).reshape(-1, 2)
