@@ -57,7 +57,8 @@ class CertificateCheck(Result):
     def describe(self) -> list[str]:
         """A few sentences for people."""
         sampled = self.accepted + self.rejected < self.leaves
-        return [verifier.qualify_claim(self.claim, self.proved, refuted=self.witnessed, sampled=sampled), self.said]
+        proved = self.tolerant if self.parts else self.proved
+        return [verifier.qualify_claim(self.claim, proved, refuted=self.witnessed, sampled=sampled), self.said]
 
     @property
     def proved(self) -> Fraction:

@@ -6,7 +6,7 @@ far from them doubles are at most), from exact first and second derivatives and 
 said at the top of a module in the folder beside this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
 (ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` is the form of
 the file, ``words`` what it claims, ``tree`` and ``paths`` which cells it has, ``chain`` the arm and its target, ``taylor`` what
-most leaves are proved by. These are 1,410 lines of code in all, without docstrings and comments; the explanation of
+most leaves are proved by. These are 1,411 lines of code in all, without docstrings and comments; the explanation of
 certificates in the documentation says which have to be read for one claim.
 """
 
@@ -88,8 +88,9 @@ class Verdict:
 
     @property
     def claim(self) -> str:
-        """The sentence of the claim, with the fraction of it that is verified."""
-        return words.qualify_claim(self.document["claim"], self.proved, refuted=self.refuted, sampled=self.sampled)
+        """The sentence of the claim, with the fraction of it that is verified; of a bundle, whatever locks."""
+        proved = self.tolerant if self.parts else self.proved
+        return words.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.sampled)
 
     @property
     def sentence(self) -> str:

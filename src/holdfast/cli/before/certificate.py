@@ -67,7 +67,8 @@ def show(file: FileArgument) -> None:
     except verifier.Refused as error:
         raise InputError(str(error)) from error
     volumes, arm = {key: _share(part) for key, part in document["volumes"].items()}, document["source"]["name"]
-    only = f", proved for only {verifier.per_cent(volumes['proved'])} of this claim" if 0 < volumes["proved"] < 1 else ""
+    of = "this claim in its worst part" if document["kind"] in ("bundle", "path") else "this claim"
+    only = f", proved for only {verifier.per_cent(volumes['proved'])} of {of}" if 0 < volumes["proved"] < 1 else ""
     typer.echo(f"Not verified{only}: {document['claim']}")
     typer.echo(
         f"A {document['kind']} of {arm}, whose file has {len(document['arm']['joints'])} joints; digest {document['digest']}."
