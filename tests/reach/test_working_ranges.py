@@ -92,6 +92,15 @@ def test_a_margin_is_cut_off_only_where_targets_are_lost():
     assert (inside.ranges[:, 1] <= [0.4, np.pi, 1.4]).all()
 
 
+def test_a_joint_that_is_held_keeps_its_value_and_others_that_do_not_lock_their_ranges():
+    held = {"joint1": (-0.6, -0.6), "joint3": (0.3, 2.0)}
+    found = hf.find_working_ranges(planar((1.0, 1.0, 1.0)), (1.5, 0.5), 0.05, working_ranges=held, failures=[0, 1])
+    assert found.ok
+    np.testing.assert_array_equal(found.ranges[0], [-0.6, -0.6])
+    np.testing.assert_allclose(found.ranges[2], [0.3, 2.0], atol=np.radians(0.02))
+    assert [len(text.split("..")) for text in found.options] == [2, 2, 2]
+
+
 def test_a_joint_without_limits_may_have_a_range_across_half_a_turn():
     free = hf.find_working_ranges(planar((1.0, 1.0, 1.0), -np.inf, np.inf), (-1.5, -0.5), 0.2, margin=0.0)
     turned = hf.find_working_ranges(planar((1.0, 1.0, 1.0)), (1.5, 0.5), 0.2, margin=0.0)  # the same box, half a turn ahead

@@ -83,7 +83,7 @@ class WorkingRanges(Result):
         arm, written = self.claim.arm, []
         for k, joint in enumerate(arm.joints):
             if (self.ranges[k] != [joint.lower, joint.upper]).any():
-                low, high = (f"{joint.shown[0] * x + 0.0:.{_decimals(joint.prismatic)}f}" for x in self.ranges[k])
+                low, high = (f"{round(joint.shown[0] * x, 10) + 0.0:.12g}" for x in self.ranges[k])
                 written.append(f"{joint.name}={low}..{high}")
         return written
 
@@ -137,9 +137,7 @@ def find_working_ranges(
         arm: The arm.
         centre: As of :func:`holdfast.certificates.tolerant_claim`.
         size: Likewise.
-        rotation: Likewise.
-        rpy: Likewise.
-        task: Likewise.
+        rotation, rpy, task: Likewise.
         working_ranges: ``{joint: (low, high)}``, rad or m, within which its range is looked for. Default: the joint's limits;
             a full turn, or 1 m to either side, where there are none.
         failures: Which joints may lock, one at a time. The others keep the ranges that are given.
@@ -150,7 +148,7 @@ def find_working_ranges(
         seed: Seed of all random draws.
 
     Returns:
-        A :class:`holdfast.reach.WorkingRanges`, whose ``claim`` :func:`holdfast.certify` proves.
+        Ranges whose ``claim`` :func:`holdfast.certify` proves.
 
     Raises:
         InputError: A box, joint, or range that makes no claim, or a number out of range.
@@ -165,8 +163,7 @@ def find_working_ranges(
             "margin from 0 to below 0.5"
         )
     locks, bounds = single_joints(arm, failures), narrowed(arm, working_ranges or {})
-    bounds[locks] = np.stack(made_finite(*bounds[locks].T, arm.prismatic[locks]), axis=1)
-
+    bounds[locks] = np.stack(made_finite(bounds[locks, 0], bounds[locks, 1], arm.prismatic[locks]), axis=1)
     narrow = {*locks, *map(arm.joint_index, working_ranges or {})}
 
     def claimed(ranges: Array) -> TolerantClaim:
@@ -252,7 +249,7 @@ class _Search:
         """For each joint (N, K) whether each pose is reached with the joint locked at each of its values (K,)."""
         table = samples.survival(self._arm, self._task, poses, values, self._seed + sample)
         for k, (each, column) in enumerate(zip(table, values, strict=True)):
-            row, at = np.nonzero(~each & (each.mean(axis=0) >= _NEARLY_ALL) if each.size else each)
+            row, at = np.nonzero(~each & (each.mean(axis=0) >= _NEARLY_ALL))
             if len(row):
                 locks, draws = np.full(len(row), k), np.random.SeedSequence([self._seed + sample, k, 1])
                 engine = solver(self._arm, self._task)
@@ -273,7 +270,8 @@ class _Search:
         """Return ranges (n, 2), and whether all targets pass."""
         table = self._survival(self._grids, self._poses, 0)
         intervals = [self._intervals(k, each) for k, each in enumerate(table)]
-        q = samples.configurations(self._arm, self._task, self._poses, np.random.default_rng([self._seed, 99]))
+        arm = samples.limited(self._arm, self._bounds)
+        q = samples.configurations(arm, self._task, self._poses, np.random.default_rng([self._seed, 99]))
         if all(map(len, intervals)):
             for chosen in self._combinations(intervals, q):
                 for cut in (margin, margin / 4, 0.0):
@@ -284,9 +282,9 @@ class _Search:
 
     def _intervals(self, k: int, table: NDArray[np.bool_]) -> Array:
         """(C, 2) the widest intervals of a joint at whose values no target is lost; its bounds if it does not lock."""
-        grid, good = self._grids[k], table.all(axis=0)
+        grid, good = self._grids[k], np.asarray(table.all(axis=0))
         if good.all():
-            return self._bounds[k][None]
+            return np.asarray(self._bounds[k][None])
         if self._circle[k]:  # once round, from a value that fails to itself
             first = int(np.argmin(good))
             grid, good = np.append(grid[first:], grid[: first + 1] + 2 * np.pi), np.append(good[first:], good[: first + 1])
@@ -294,18 +292,18 @@ class _Search:
             best = int(np.argmax(table.mean(axis=0)))
             grid = np.linspace(grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)], self._values)
             good = self._survives(k, grid)
-        runs = np.flatnonzero(np.diff(np.concatenate([[0], good.astype(int), [0]]))).reshape(-1, 2) - [0, 1]
+        runs = _runs(good)
         inner, outer = grid[runs], grid[np.clip(runs + np.array([-1, 1]), 0, len(grid) - 1)]
         for _ in range(_HALVINGS if len(runs) else 0):
             middle = (inner + outer) / 2
             passed = self._survives(k, middle.ravel()).reshape(-1, 2)
             inner, outer = np.where(passed, middle, inner), np.where(passed, outer, middle)
-        return inner
+        return np.asarray(inner)
 
     def _survives(self, k: int, values: Array) -> NDArray[np.bool_]:
         """(K,) whether all targets survive a lock of a joint at each of some values (K,)."""
         each = [values if j == k else np.empty(0) for j in range(self._arm.n)]
-        return np.asarray(self._survival(each, self._poses, 0)[k].all(axis=0))
+        return np.asarray(self._survival(each, self._poses, 0)[k].all(axis=0), dtype=bool)
 
     def _combinations(self, intervals: list[Array], q: Array) -> list[list[Array]]:
         """One interval of each joint, for combinations within which configurations q (H, S, n) lie, the best first."""
@@ -328,11 +326,12 @@ class _Search:
         choices = []
         for k, (grid, circle, survives) in enumerate(zip(self._grids, self._circle, table, strict=True)):
             low, high = self._bounds[k]
-            if len(grid):
-                choices.append(samples.Choices.of(grid, bool(circle), survives, q[:, :, k]))
+            if len(grid) and low < high:
+                some = slice(None, None, -(-len(grid) // self._values))  # of several turns
+                choices.append(samples.Choices.of(grid[some], bool(circle), survives[:, some], q[:, :, k]))
             else:
                 inside = (q[None, :, :, k] >= low) & (q[None, :, :, k] <= high)
-                choices.append(samples.Choices(self._bounds[k][None], np.ones((1, len(q)), dtype=bool), inside))
+                choices.append(samples.Choices(self._bounds[k][None], np.array([survives.all(axis=1)]), inside))
         kept = np.all([(each.survives[..., None] & each.holds).any(axis=0) for each in choices], axis=0)
         begin = np.where(kept[..., None], q, np.nan) if kept.any() else q
         ranges = samples.most_held(choices, begin, np.random.default_rng([self._seed, 98]))
@@ -347,9 +346,9 @@ class _Search:
     def _rounded(self, k: int, pair: Array) -> Array:
         """An interval rounded inwards to what :attr:`WorkingRanges.options` prints; the limits of the arm are kept."""
         joint, (low, high) = self._arm.joints[k], self._bounds[k]
-        if (pair == [joint.lower, joint.upper]).all():
+        digits, factor = 4 if joint.prismatic else 2, joint.shown[0]
+        if (pair == [joint.lower, joint.upper]).all() or factor * (pair[1] - pair[0]) < 3 * 10**-digits:
             return pair
-        digits, factor = _decimals(joint.prismatic), joint.shown[0]
         unit = 1.0 if joint.prismatic else np.pi / 180  # as the command line reads degrees
 
         def end(x: float, inward: int) -> float:
@@ -358,8 +357,7 @@ class _Search:
             beyond = not self._circle[k] and not low <= value <= high
             return unit * float(f"{inward * (number + 1) / 10**digits:.{digits}f}") if beyond else value
 
-        least, most = end(pair[0], 1), end(pair[1], -1)
-        return np.array([least, max(least, most)])
+        return np.array([end(pair[0], 1), end(pair[1], -1)])
 
     def judged(self, ranges: Array, sample: int) -> tuple[NDArray[np.bool_], list[tuple[NDArray[np.bool_], Array]]]:
         """Return for a fresh sample (N,) targets within the ranges, and for each joint (N, K) those that survive its locks.
@@ -379,17 +377,19 @@ class _Search:
         """Shorten ranges in place to the longest run of values that lose no target; return whether any was shortened."""
         changed = False
         for k, (table, values) in enumerate(survives):
-            good = table.all(axis=0)
+            good = np.asarray(table.all(axis=0))
             if good.all() or not good.any():
                 continue
-            runs = np.flatnonzero(np.diff(np.concatenate([[0], good.astype(int), [0]]))).reshape(-1, 2) - [0, 1]
+            runs = _runs(good)
             first, last = runs[int(np.argmax(values[runs[:, 1]] - values[runs[:, 0]]))]
             ranges[k], changed = self._rounded(k, values[[first, last]]), True
         return changed
 
 
-def _decimals(prismatic: bool) -> int:
-    return 4 if prismatic else 2
+def _runs(good: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """(R, 2) first and last index of each run of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], good.astype(np.int64), [0]])))
+    return np.asarray(edges.reshape(-1, 2) - [0, 1], dtype=np.int64)
 
 
 def _relative(arm: Arm, ranges: Array) -> Array:
