@@ -137,7 +137,9 @@ def find_working_ranges(
         arm: The arm.
         centre: As of :func:`holdfast.certificates.tolerant_claim`.
         size: Likewise.
-        rotation, rpy, task: Likewise.
+        rotation: Likewise.
+        rpy: Likewise.
+        task: Likewise.
         working_ranges: ``{joint: (low, high)}``, rad or m, within which its range is looked for. Default: the joint's limits;
             a full turn, or 1 m to either side, where there are none.
         failures: Which joints may lock, one at a time. The others keep the ranges that are given.
