@@ -207,6 +207,10 @@ class Registry(Mapping[str, Entry]):
             return None
         return Entry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
 
+    def covers(self, label: str) -> bool:
+        """Return whether a label names an entry, or a function of a file as ``module:function``."""
+        return label.partition(":")[0] in self or self._of_file(label) is not None
+
     def read(self, label: str, option: str = "") -> tuple[Entry, dict[str, Any]]:
         """The entry that a label names, and the settings that it gives.
 

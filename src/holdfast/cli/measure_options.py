@@ -6,8 +6,9 @@ from typing import Annotated
 
 from holdfast.registry import INDICES, SUSCEPTIBILITIES
 
-IndexOption = Annotated[str, f"{INDICES.usage}."]
+OWN_INDEX = "or a function of a file in the current folder, as module:function"
+IndexOption = Annotated[str, f"{INDICES.usage}; {OWN_INDEX}."]
 OBJECTIVES = (
     f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, torque:joint2 for "
-    f"one joint alone), or an index: {', '.join(e.usage for e in INDICES.values())}"
+    f"one joint alone), or an index: {', '.join(e.usage for e in INDICES.values())}, {OWN_INDEX}"
 )

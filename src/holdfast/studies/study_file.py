@@ -292,6 +292,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     from holdfast.designs.search import region_poses
     from holdfast.designs.space import DesignSpace, parse_vary
     from holdfast.failures import read_failures
+    from holdfast.indices.own_file import plan_entries
     from holdfast.regions.region import Region, default_region
     from holdfast.studies.jobs.designs import DesignJob
 
@@ -324,7 +325,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
             "fingerprint": arm.fingerprint,
             "vary": [[p.name, p.lower, p.upper, p.unit] for p in space.parameters],
             "region": place.to_dict(),
-            "index": measure.label,
+            **plan_entries(measure),
             "task": t.to_dict(),
             "failures": [[arm.joint_names[k] for k in f] for f in measure.failures],
             "level": given.level,
