@@ -77,7 +77,7 @@ def least_by_numpy(arm, q):
 
 
 def self_motion(x, y):
-    """Return configurations of three links of 1 m that hold the tool at (x, y), both elbows for each angle of the first link."""
+    """Return configurations of three links of 1 m that hold the tool at (x, y), both elbows for each first angle."""
     first = np.linspace(-np.pi, np.pi, 100_001)
     a, b = x - np.cos(first), y - np.sin(first)
     cosine = (a**2 + b**2 - 2) / 2
@@ -106,8 +106,8 @@ def test_a_sum_with_a_module_in_a_package(file, ask):
 
 
 def test_a_sweep_of_designs_resumes_until_the_function_changes(file, cli):
-    text = "{poses: 16, chunk: 2, arms: [{arm: planar-3r, vary: {a1: 0.9..1.1}, designs: 4, chunk: 2}], assess: {indices: ['%s']}}"
-    file.with_name("s.yaml").write_text(text % NAME)
+    swept = "{arm: planar-3r, vary: {a1: 0.9..1.1}, designs: 4, chunk: 2}"
+    file.with_name("s.yaml").write_text(f"{{poses: 16, chunk: 2, arms: [{swept}], assess: {{indices: ['{NAME}']}}}}")
     assert cli("study", "run", "s.yaml", "--out", "s", "--part", "1/2")[0] == 0
     file.write_text(TEXT.replace("+ 0.1", "+ 0.2"))
     code, _, err = cli("study", "run", "s.yaml", "--out", "s")
@@ -123,8 +123,12 @@ def test_the_studio_offers_it(file, monkeypatch, cli):
     from holdfast.studio.scene.machine import Machine
 
     asked = {}
-    page = SimpleNamespace(url="", wait=lambda: None)
-    monkeypatch.setattr(server, "serve", lambda model, state, *_, **__: asked.update(model=model, state=state) or nullcontext(page))
+
+    def serve(model, state, *_, **__):
+        asked.update(model=model, state=state)
+        return nullcontext(SimpleNamespace(url="", wait=lambda: None))
+
+    monkeypatch.setattr(server, "serve", serve)
     assert cli("studio", "planar-3r", "--index", NAME, "--objective", NAME)[0] == 0
     machine, q = Machine(asked["model"], as_task(asked["model"], "planar")), [0.3, 0.7, -0.5]
     better, worse = machine.objectives(asked["state"].objective)

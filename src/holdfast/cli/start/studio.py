@@ -32,7 +32,7 @@ def command(
     free: Annotated[list[str] | None, "A joint that swings freely. May be given again."] = None,
     index: Annotated[str, f"Index shown by the bars: a built-in one, {OWN_INDEX}."] = "relative-manipulability",
     susceptibility: Annotated[str, f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}."] = ("torque"),
-    objective: Annotated[str, f"Index or susceptibility by which best and worst are found; {OWN_INDEX}."] = "relative-manipulability",
+    objective: Annotated[str, f"Index or susceptibility for best and worst, {OWN_INDEX}."] = "relative-manipulability",
     law: Annotated[
         list[str] | None, f"Two laws side by side: {LAWS.usage}. Give it twice.", "pseudoinverse and failure-tolerant"
     ] = None,
