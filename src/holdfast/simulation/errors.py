@@ -27,6 +27,7 @@ class ErrorKind(NamedTuple):
         text: Name for people.
         unit: Unit for people.
         factor: Number of units in 1 m or 1 rad.
+        whole: Part of the target from which the error is measured.
     """
 
     name: str
@@ -34,10 +35,11 @@ class ErrorKind(NamedTuple):
     text: str
     unit: str
     factor: float
+    whole: str
 
 
-_DISTANCE = ErrorKind("position_error", "position_error_m", "distance from the target", "mm", 1000.0)
-_ANGLE = ErrorKind("angle_error", "angle_error_rad", "angle from the target", "degrees", 180 / np.pi)
+_DISTANCE = ErrorKind("position_error", "position_error_m", "distance from the target", "mm", 1000.0, "the target")
+_ANGLE = ErrorKind("angle_error", "angle_error_rad", "angle from the target", "degrees", 180 / np.pi, "its orientation")
 
 
 def error_kinds(law: Law) -> list[ErrorKind]:
