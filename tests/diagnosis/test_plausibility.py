@@ -173,6 +173,9 @@ def test_no_changed_bit_or_digit_of_bounds_is_accepted(crane, healthy, tmp_path,
         file.write_bytes(data)
         with pytest.raises(InputError, match="bounds '"):
             hf.diagnosis.load(file)
+    file.write_bytes(sound.partition(b',\n  "digest"')[0] + b"\n}\n")
+    with pytest.raises(InputError, match="digest does not match"):
+        hf.diagnosis.load(file)
     file.write_bytes(sound)
     assert np.array_equal(hf.diagnosis.load(file).torque, bounds.torque)
 
