@@ -137,7 +137,12 @@ def test_the_studio_offers_it(file, monkeypatch, cli):
 
 
 def test_what_is_missing_is_named(file, refused):
-    for label, reason in (("my_index:none", "has no function 'none'"), ("absent:f", "no 'absent.py' in the current folder")):
+    for label, reason in (
+        ("my_index", "a function of a file as module:function"),
+        ("my_index.py:weighted", "without .py: my_index:weighted"),
+        ("my_index:none", "has no function 'none'"),
+        ("absent:f", "no 'absent.py' in the current folder"),
+    ):
         assert reason in refused("index", "planar-3r", "--index", label, "--q", "0 1 1")
 
 

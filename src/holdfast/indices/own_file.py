@@ -90,6 +90,8 @@ def check_digest(index: Index, plan: Mapping[str, Any]) -> None:
 
 
 def _find(module: str, label: str) -> Path:
+    if module.endswith(".py"):
+        raise InputError(f"index '{label}' is written with the module, without .py: {label.replace('.py:', ':', 1)}")
     local = Path.cwd() / (module.replace(".", "/") + ".py")
     if local.is_file():
         return local
