@@ -20,6 +20,7 @@ from holdfast.arguments import checked
 from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, TaskError
 
+OWN_INDEX = "or a function of a file in the current folder, as module:function"
 _MODULE_FUNCTION = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*")
 
 P = ParamSpec("P")
@@ -228,7 +229,7 @@ class Registry(Mapping[str, Entry]):
         name, value, by_key = grammar.split(label)
         what = f"{option} '{label}'".strip()
         if name not in self:
-            own = ", or a function of a file as module:function" if self._own else ""
+            own = f", {OWN_INDEX}" if self._own else ""
             raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self) + own)
         return self[name], self[name].read(value, by_key, what)
 

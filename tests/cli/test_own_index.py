@@ -138,7 +138,7 @@ def test_the_studio_offers_it(file, monkeypatch, cli):
 
 def test_what_is_missing_is_named(file, refused):
     for label, reason in (
-        ("my_index", "a function of a file as module:function"),
+        ("my_index", "as module:function"),
         ("my_index.py:weighted", "without .py: my_index:weighted"),
         ("my_index:none", "has no function 'none'"),
         ("absent:f", "no 'absent.py' in the current folder"),

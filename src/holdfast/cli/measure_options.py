@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from holdfast.registry import INDICES, SUSCEPTIBILITIES
+from holdfast.registry import INDICES, OWN_INDEX, SUSCEPTIBILITIES
 
-OWN_INDEX = "or a function of a file in the current folder, as module:function"
 IndexOption = Annotated[str, f"{INDICES.usage}; {OWN_INDEX}."]
 OBJECTIVES = (
     f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, torque:joint2 for "

@@ -309,7 +309,6 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     spec, arm, label = _arm(whole, folder)
     texts = [f"{name}={bounds}" for name, bounds in given.vary.items()]
     space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))
-    poses = block.poses or model.poses
     for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
         rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
         measure = _index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
@@ -329,7 +328,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
             "task": t.to_dict(),
             "failures": [[arm.joint_names[k] for k in f] for f in measure.failures],
             "level": given.level,
-            "poses": poses,
+            "poses": block.poses or model.poses,
             "seed": model.seed,
         }
         labels = {"job": "designs", "arm": label, "index": index, "task": t.name, "region": place.name, "failures": failures}

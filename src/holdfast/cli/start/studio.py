@@ -8,11 +8,10 @@ import numpy as np
 import typer
 
 from holdfast.cli.groups import CellOption, Chain, MeshesOption
-from holdfast.cli.measure_options import OWN_INDEX
 from holdfast.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
 from holdfast.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 from holdfast.errors import InputError
-from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
+from holdfast.registry import INDICES, LAWS, OWN_INDEX, SUSCEPTIBILITIES, unknown
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
