@@ -45,17 +45,16 @@ def gains_figure(c: LawComparison) -> Figure:
         return Gains(label=name, value=value, low=low, high=high)
 
     more = [of(name, [c.gain(name, j) for j in cases]) for name in c.names[1:]]
-    first = c.names[0]
     nearer = [
         (
-            f"{kind.text}, {kind.unit}, minus that with {first}",
+            f"{kind.name.partition('_')[0]} error, {kind.unit}",
             [of(name, [c.change(name, kind.name, j) for j in cases], kind.factor) for name in c.names[1:]],
         )
         for kind in error_kinds(c.laws[0])
     ]
     return gain_figure(
         cases,
-        [(f"fraction that converges, minus that with {first}", more), *nearer],
+        [("fraction that converges", more), *nearer],
     )
 
 

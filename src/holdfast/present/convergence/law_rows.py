@@ -125,7 +125,7 @@ def signed_error(row: dict[str, Any], kind: ErrorKind) -> str:
 def error_cell(row: dict[str, Any], kind: ErrorKind, of: str, none: str) -> str:
     """Return one error of a row of the table in the unit for people; ``of`` is a quantile such as 50, or astray."""
     value = row[f"{kind.key}_{of}"]
-    return none if value is None else number(kind.factor * value, 3)
+    return none if value is None else number(kind.factor * value)
 
 
 def time_unit(c: LawComparison) -> str:
