@@ -229,8 +229,8 @@ class Registry(Mapping[str, Entry]):
         name, value, by_key = grammar.split(label)
         what = f"{option} '{label}'".strip()
         if name not in self:
-            own = f", {OWN_INDEX}" if self._own else ""
-            raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self) + own)
+            form = f", {OWN_INDEX}" if self._own else ""
+            raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self) + form)
         return self[name], self[name].read(value, by_key, what)
 
     def make(self, label: str, arm: Any, *, option: str = "", **options: Any) -> Any:

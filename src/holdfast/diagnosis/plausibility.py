@@ -173,7 +173,7 @@ def _compare(wanted: Array, measured: Array) -> tuple[float, float]:
 def _join_angles(arm: Arm, log: Log) -> Log:
     """Return the log with angles that do not leap by whole turns, ``q_ref`` within the limits and ``q`` on its turn."""
     wanted, measured = log.q_ref.copy(), log.q.copy()
-    for k in np.flatnonzero(~arm.prismatic):
+    for k in np.flatnonzero(~arm.prismatic).tolist():
         for column in (wanted[:, k], measured[:, k]):
             there = np.flatnonzero(np.isfinite(column))
             column[there] -= _TURN * np.cumsum(_whole_turns(np.diff(column[there], prepend=column[there[:1]])))

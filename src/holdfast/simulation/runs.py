@@ -210,7 +210,7 @@ class Runs(Result):
     @cached_property
     def _ends(self) -> tuple[Array, Array]:
         q = np.atleast_2d(self.q_final)
-        known = np.isfinite(q).all(axis=1)
+        known = np.asarray(np.isfinite(q).all(axis=1))
         found = np.full((2, len(q)), np.nan)
         found[:, known] = self._motion.errors(self, known, q[known])
         return (found[0], found[1]) if self.code.ndim else (found[0, 0], found[1, 0])
