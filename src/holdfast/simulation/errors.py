@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ class ErrorKind(NamedTuple):
         whole: Part of the target from which the error is measured.
     """
 
-    name: str
+    name: Literal["position_error", "angle_error"]
     key: str
     text: str
     unit: str
