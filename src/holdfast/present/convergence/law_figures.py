@@ -61,7 +61,9 @@ def gains_figure(c: LawComparison) -> Figure:
 def error_figure(c: LawComparison) -> Figure:
     """Cumulative distributions of the errors at the end, in mm and degrees, over all joints; in one unit also their excess."""
     kinds = error_kinds(c.laws[0])
-    shown = [(kind.name, f"{capitalised(kind.text)} at the end, {kind.unit}", kind.factor) for kind in kinds]
+    shown: list[tuple[str, str, float]] = [
+        (kind.name, f"{capitalised(kind.text)} at the end, {kind.unit}", kind.factor) for kind in kinds
+    ]
     if len(kinds) == 1:
         shown.append(("excess", f"Error above the least possible, {kinds[0].unit}", kinds[0].factor))
     panels = []
