@@ -136,7 +136,9 @@ class Faults(Motion):
         """
         slope = self.slopes(cells, cells.w)
         b, inner = slope[:, :, 0], slope[:, :, 1:]
-        u = np.linalg.solve(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
+        matrix = np.eye(self.m) - np.nan_to_num(inner)
+        matrix = np.where(abs(np.linalg.det(matrix))[:, None, None] > 0, matrix, np.eye(self.m))
+        u = np.linalg.solve(matrix, b[:, :, None])[:, :, 0] * 1.001 + 1e-12
         found = (u >= 0).all(axis=1) & ((b + np.einsum("nab,nb->na", inner, u) * UP) * UP + LEAST <= u).all(axis=1)
         slower = np.einsum("nb,nb->n", abs(own.at[:, -1, -self.m :]), u) * UP
         off = np.einsum("nc,nc->n", abs(own.at[:, -1]), cells.w) * UP
