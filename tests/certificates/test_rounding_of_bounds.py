@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import written
 
-from holdfast.certificates.verified import balls
+from holdfast.certificates.verified import balls, bounds
 from holdfast.certificates.verified.balls import Balls
 from holdfast.certificates.verified.chain import Chain, exactly
 from holdfast.certificates.verified.taylor import Error, Form, Inclusion
@@ -111,6 +111,28 @@ def test_what_is_behind_the_second_order(rng):
     truth = exact(far[:, 0]) + exact(far[:, 3])  # the other chain's joints come backwards
     assert (exact(angle) >= truth).all()
     assert (exact(rest[:, 3]) >= truth**3 / 6).all()
+
+
+def test_manipulability_that_is_found(rng):
+    """Of planar arms with quarter turns, whose Jacobians are whole numbers: 1 - J_k' (J J')^-1 J_k in fractions."""
+    quarter = written.turn(2, np.pi / 2).round()
+    for _ in range(10):
+        links = rng.integers(1, 6, 4).astype(float)
+        frames = [written.place(np.eye(3), [0.0, 0, 0])] + [written.place(quarter, [x, 0.0, 0]) for x in links]
+        arm = written.Chain(frames[:-1], frames[-1], [[-4.0, 4.0]] * 4).stored()
+        document = {"joint_box": [["-0x1p+0", "0x1p+0"]] * 4, "arm": arm, "task": "planar-pose"}
+        leaves = bounds.Wrenches(document | {"threshold": "0x1p-1", "locks": [0, 2]})
+        low, high = leaves.occurs(["0x0p+0"] * 4)
+        steps = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]]) * links[:, None]
+        places = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
+        lever = places[-1] - places[:-1]
+        rows = [[Fraction(int(x)) for x in row] for row in (np.ones(4), -lever[:, 1], lever[:, 0])]
+        gram = flint.fmpq_mat([[flint.fmpq(int(sum(a * b for a, b in zip(r, s, strict=True)))) for s in rows] for r in rows])
+        columns = flint.fmpq_mat([[flint.fmpq(int(x)) for x in row] for row in rows])
+        parts = columns.transpose() * gram.inv() * columns
+        squares = [1 - Fraction(int(parts[k, k].p), int(parts[k, k].q)) for k in (0, 2)]
+        assert Fraction(low) ** 2 <= min(squares) <= Fraction(high) ** 2
+        assert high - low < 1e-7
 
 
 @pytest.mark.parametrize("beyond", [-8, -1, 0, 1, 8])
