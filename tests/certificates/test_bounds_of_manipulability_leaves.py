@@ -184,6 +184,7 @@ def test_floors_of_random_jacobians(rng, rows):
         (([1, 0.3], [0, 0], [0, 0], [0, 0]), (0, 1), (1, 0)),
         (([1, 0], [0, 0], [0, 2.4], [0, 0]), (0, 1), (1, 0)),
         (([1, 0], [0, 0], [0, 0], [0, 0.3]), (0, 1), (1, 0)),
+        (([-1, 0], [0, 0], [0, 0], [0, 0.3]), (0, -1), (-1, 0)),
         # Joint 2 makes up for it as well.
         (([1, 0], [0, 0], [0, 0], [0, 0.3]), (0, 1), (1, 0.5)),
         (([1, 0], [0, 0], [0, 0], [0, 0.3]), (0, 1), (1, -0.5)),
@@ -191,6 +192,8 @@ def test_floors_of_random_jacobians(rng, rows):
         (([1, 0], [0, 8], [0, 0], [0, 0]), (0, 1), (1, 0)),
         (([1, 0], [0, 8], [-1.6, 0], [0, 0]), (0, 1), (1, 0)),
         (([1, 0], [-0.4, 8], [0, 0], [0, 0]), (0, 1), (1, 0)),
+        # It follows by less than it should: 0.3 of this, and later by the rest.
+        (([1, 0], [0, 8], [0, 0], [0, 0]), (0, 1), (0.3, 0)),
         # Joint 1 follows and moves in the middle already.
         (([1, -3], [0, 2], [0, 0], [0, 0]), (3, 1), (1, 0)),
         # The motion misses by 3, and the matrices make up for a part of that: in the middle, or at the edge.
