@@ -165,6 +165,16 @@ def test_turned_cells_whose_section_runs_away():
         assert not Faults.forward(faults, cells, Balls(own), np.array([-1e12]))[0]
 
 
+def test_turned_cells_whose_equations_are_solved_badly():
+    """The matrix is rounded to another one: the section moves by 2.2e13, and the rounded equations say 1.8e13."""
+    slope = np.array([[[1e-3, 1e-17, 1.0], [1e-3, 1 - 2.0**-53, 1e-17]]])
+    (b, a, c), (e, d, f) = [list(map(Fraction, row)) for row in slope[0].tolist()]
+    assert (b * (1 - f) + c * e) / ((1 - a) * (1 - f) - c * d) > 2e13
+    own = np.array([[[0.0, 0, 0, 0], [0, 0, 0, 0], [0, 2e13, 1, 0]]])
+    faults, cells = SimpleNamespace(m=2, slopes=lambda cells, half: slope), SimpleNamespace(w=np.ones((1, 4)))
+    assert not Faults.forward(faults, cells, Balls(own), np.array([-1e30]))[0]
+
+
 # ---- cells that continue a motion ----------------------------------------------------------------------------------
 
 
