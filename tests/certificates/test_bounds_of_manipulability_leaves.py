@@ -192,6 +192,9 @@ def test_floors_of_random_jacobians(rng, rows):
         (([1, 0], [0, 8], [0, 0], [0, 0]), (0, 1), (1, 0)),
         (([1, 0], [0, 8], [-1.6, 0], [0, 0]), (0, 1), (1, 0)),
         (([1, 0], [-0.4, 8], [0, 0], [0, 0]), (0, 1), (1, 0)),
+        # Of a long motion the locked joint does a small part, and less where it follows, or makes up for what is missed.
+        (([1, 0, 0], [0, 0.06, 0], [0, 0, 0], [0, 0, 0]), (0, 10, 1), (1, 0, 2)),
+        (([1, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0.03, 0]), (0, 10, 1), (1, 0, 2)),
         # It follows by less than it should: 0.3 of this, and later by the rest.
         (([1, 0], [0, 8], [0, 0], [0, 0]), (0, 1), (0.3, 0)),
         # Joint 1 follows and moves in the middle already.
