@@ -26,6 +26,19 @@ def pages():
     return commands.written()
 
 
+def test_every_link_has_a_text():
+    """Sphinx fills in the title of a page where a link has no text; a plain Markdown viewer shows nothing."""
+    root = DOCS.parent
+    files = [*DOCS.rglob("*.md"), *root.glob("*.md"), *(root / "examples").rglob("*.md")]
+    blank = [
+        f"{file.relative_to(root)}: {link}"
+        for file in files
+        if "_build" not in file.parts
+        for link in re.findall(r"(?<!!)\[\s*\]\([^)]*\)", file.read_text(encoding="utf-8"))
+    ]
+    assert not blank
+
+
 def functions(name):
     """The functions of a command, or of the commands of a group, with how each is called."""
     module, _, function = COMMANDS[name].partition(":")

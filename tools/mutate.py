@@ -12,6 +12,7 @@ import compileall
 import os
 import py_compile
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -27,7 +28,10 @@ PACKAGES = {
     "assessment": (["assessment/*"], ["assessment"]),
     "clearance": (["clearance/**/*"], ["clearance"]),
     "diagnosis": ([f"diagnosis/{name}" for name in ("bounds", "decision", "kinds", "plausibility", "signals")], ["diagnosis"]),
-    "probability": (["probability/*"], ["test_beta.py", "test_interval.py", "test_sobol.py", "assessment"]),
+    "probability": (
+        ["probability/*"],
+        ["test_beta.py", "test_interval.py", "test_interval_coverage.py", "test_sobol.py", "assessment"],
+    ),
     "recovery": (["recovery/verification"], ["recovery"]),
     "verifier": (["certificates/verified/*"], ["certificates"]),
 }
@@ -38,6 +42,7 @@ COMPARISONS: dict[type, Any] = {
     ast.Gt: (ast.GtE, ast.Lt),
     ast.GtE: (ast.Gt, ast.LtE),
 }
+NO_TESTS = 5  # exit code of pytest
 EXTREMES = {"min": "max", "minimum": "maximum", "argmin": "argmax", "max": "min", "maximum": "minimum", "argmax": "argmin"}
 
 
@@ -106,36 +111,50 @@ def choose_mutations(root: Path, files: list[Path], count: int, seed: int) -> li
     return [draw.choice(lines[line]) for line in draw.sample(sorted(lines), min(count, len(lines)))]
 
 
-def tests_pass(root: Path, source: Path, tests: list[str], time_limit: float) -> bool:
-    """Run tests with a copy of the sources; tests that exceed the time limit in seconds do not pass."""
+def find_failure(root: Path, source: Path, tests: list[str], time_limit: float) -> str | None:
+    """Return the first test that fails with a copy of the sources, or the reason why no test could fail; None if all pass."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(source), str(root)])}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
-    process = subprocess.Popen(command, cwd=root, env=environment, start_new_session=True, stdout=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        command, cwd=root, env=environment, start_new_session=True, stdout=subprocess.PIPE, text=True, errors="replace"
+    )
     try:
-        return process.wait(time_limit) == 0
+        output, _ = process.communicate(timeout=time_limit)
     except subprocess.TimeoutExpired:
-        return False
+        return f"time limit of {time_limit:g} s"
     finally:  # also where the program itself is stopped
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
+    failures = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", output, re.MULTILINE)
+    if process.returncode in (0, NO_TESTS):
+        return None
+    return failures[0] if failures else f"exit code {process.returncode}"
 
 
 def try_mutations(
     root: Path, mutations: list[Mutation], tests: list[str], time_limit: float
-) -> Iterator[tuple[Mutation, bool]]:
-    """Yield each mutation and whether it survives; without a mutation the tests must pass."""
+) -> Iterator[tuple[Mutation, str | None]]:
+    """Yield each mutation and the test that detects the mutation, or None; without a mutation the tests must pass.
+
+    The slow tests (``tests/slow.txt``) run on the mutations that the quick ones do not detect.
+    """
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "src"
         shutil.copytree(root / "src", source, ignore=shutil.ignore_patterns("__pycache__"))
         # Compiled files are compared by content, because two mutations may have the same size and time.
         compileall.compile_dir(source, quiet=1, invalidation_mode=py_compile.PycInvalidationMode.CHECKED_HASH)
-        if not tests_pass(root, source, tests, time_limit):
-            raise SystemExit(f"the tests fail without a mutation, or take more than {time_limit:g} s")
+
+        def try_tests() -> str | None:
+            failures = (find_failure(root, source, ["-m", marker, *tests], time_limit) for marker in ("not slow", "slow"))
+            return next(filter(None, failures), None)
+
+        if failure := try_tests():
+            raise SystemExit(f"the tests fail without a mutation: {failure}")
         for mutation in mutations:
             mutated = Path(folder) / mutation.file
             original = mutated.read_bytes()
             mutated.write_text(mutation.text, encoding="utf-8")
-            yield mutation, tests_pass(root, source, tests, time_limit)
+            yield mutation, try_tests()
             mutated.write_bytes(original)
 
 
@@ -145,17 +164,20 @@ def main() -> None:
     parser.add_argument("package", choices=PACKAGES)
     parser.add_argument("--count", type=int, default=20, help="number of mutations")
     parser.add_argument("--seed", type=int, default=0, help="seed of the random choice")
-    parser.add_argument("--time-limit", type=float, default=120.0, help="seconds for the tests of one mutation")
-    parser.add_argument("--tests", nargs="+", help="test files; the quick tests of the package by default")
+    parser.add_argument(
+        "--time-limit", type=float, default=120.0, help="seconds for the quick, and for the slow, tests of one mutation"
+    )
+    parser.add_argument("--tests", nargs="+", help="test files; the tests of the package by default")
     asked = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped"))  # which removes the temporary copy
     patterns, names = PACKAGES[asked.package]
     files = [file.relative_to(ROOT) for pattern in patterns for file in ROOT.glob(f"src/holdfast/{pattern}.py")]
-    tests = ["-m", "not slow", *(asked.tests or [f"tests/{name}" for name in names])]
+    tests = asked.tests or [f"tests/{name}" for name in names]
     mutations, survivors = choose_mutations(ROOT, files, asked.count, asked.seed), 0
-    for mutation, survives in try_mutations(ROOT, mutations, tests, asked.time_limit):
-        survivors += survives
-        print("SURVIVES" if survives else "killed  ", f"{mutation.file}:{mutation.line}: {mutation.change}", flush=True)
+    for mutation, failure in try_mutations(ROOT, mutations, tests, asked.time_limit):
+        survivors += failure is None
+        result = f"detected by {failure}" if failure else "SURVIVES"
+        print(f"{mutation.file}:{mutation.line}: {mutation.change}  {result}", flush=True)
     print(f"{asked.package}, seed {asked.seed}: {survivors} of {len(mutations)} survived")
 
 

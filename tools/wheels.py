@@ -59,7 +59,7 @@ orphan: true
 Which of the packages that holdfast needs can be installed without a compiler, asked of pip on {day} for the versions in
 `requirements.lock` and Python {first} to {last}. Linux means glibc 2.28 or later, macOS 14 or later. *yes*: there is a wheel
 for all these versions of Python; otherwise those for which there is one. A wheel does not mean that holdfast has run there:
-[](limits.md) says where it has.
+[What this version does not do](limits.md) says where it has.
 
 {summary}
 

@@ -178,7 +178,7 @@ def cycle_table() -> list[str]:
             f"| {degrees:.2f} | {', '.join(others)} | {reached} | {run.outcome}: {o.label} | "
             f"{beside(float(np.degrees(o.amplitude[0])), width, 4 if degrees == 168.30 else 3)} | "
             f"{beside(o.period, period, 2)} | "
-            f"{o.multipliers[0].real:.4f} | {o.error[0]:.3f} to {o.error[1]:.3f} |"
+            f"{o.multipliers[0].real:.4f} | {o.position_error[0]:.3f} to {o.position_error[1]:.3f} |"
         )
     points = at(GONE)
     reached, others = kinds(points)
@@ -239,7 +239,7 @@ def eigenvalues() -> list[Claim]:
             "peak to "
             f"peak of joint 1 {beside(float(np.degrees(o.amplitude[0])), 9.2372, 4)} deg, period "
             f"{beside(o.period, 79.76, 2)}/Ke, "
-            f"error {o.error[0]:.3f} to {o.error[1]:.3f} m, Floquet multiplier {o.multipliers[0].real:.3f})",
+            f"error {o.position_error[0]:.3f} to {o.position_error[1]:.3f} m, Floquet multiplier {o.multipliers[0].real:.3f})",
             "a limit cycle attracts. The specification's scan finds such windows only for joint 2 and targets 0.85 to 1.03 m "
             "away, and none wider than a few tenths of a degree: an excellent rule of thumb, and not a guarantee",
             Verdict.FALSE,

@@ -76,6 +76,8 @@ from holdfast.physics import execute as execute
 from holdfast.physics import free_swing as free_swing
 from holdfast.physics import simulate_physics as simulate_physics
 from holdfast.reach import TolerantWorkspace as TolerantWorkspace
+from holdfast.reach import WorkingRanges as WorkingRanges
+from holdfast.reach import find_working_ranges as find_working_ranges
 from holdfast.reach import joint_bounds as joint_bounds
 from holdfast.reach import reachable_when_locked as reachable_when_locked
 from holdfast.reach import tolerant_workspace as tolerant_workspace

@@ -20,6 +20,7 @@ from holdfast.arguments import checked
 from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, TaskError
 
+OWN_INDEX = "or a function of a file in the current folder, as module:function"
 _MODULE_FUNCTION = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*")
 
 P = ParamSpec("P")
@@ -207,6 +208,10 @@ class Registry(Mapping[str, Entry]):
             return None
         return Entry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
 
+    def covers(self, label: str) -> bool:
+        """Return whether a label names an entry, or a function of a file as ``module:function``."""
+        return label.partition(":")[0] in self or self._of_file(label) is not None
+
     def read(self, label: str, option: str = "") -> tuple[Entry, dict[str, Any]]:
         """The entry that a label names, and the settings that it gives.
 
@@ -224,7 +229,8 @@ class Registry(Mapping[str, Entry]):
         name, value, by_key = grammar.split(label)
         what = f"{option} '{label}'".strip()
         if name not in self:
-            raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self))
+            form = f", {OWN_INDEX}" if self._own else ""
+            raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self) + form)
         return self[name], self[name].read(value, by_key, what)
 
     def make(self, label: str, arm: Any, *, option: str = "", **options: Any) -> Any:

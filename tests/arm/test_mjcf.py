@@ -238,6 +238,18 @@ def test_ties_beside_the_chain_do_no_harm(tmp_path, more):
     assert hf.Arm.from_mjcf(ties(tmp_path, TWO_FINGERS, more), tip="b").n == 2
 
 
+@pytest.mark.parametrize("objects", [1, 3])
+def test_free_objects_beside_the_arm_are_no_ends_of_it(tmp_path, objects):
+    beside = "".join(f"<body name='cube{k}' pos='1 {k} 1'><freejoint/>{BALL}</body>" for k in range(objects))
+    alone, scene = (hf.Arm.from_mjcf(write(tmp_path, text)) for text in (ONE, beside + ONE))
+    assert scene.joint_names == alone.joint_names
+    np.testing.assert_array_equal(scene.forward_kinematics([0.3]), alone.forward_kinematics([0.3]))
+    car = f"<body name='car'><freejoint name='wheels'/>{BALL}{ONE}</body>"
+    with pytest.raises(hf.ArmError, match=r"joint 'wheels' .* is free; .*--base car"):
+        hf.Arm.from_mjcf(write(tmp_path, beside + car))
+    assert hf.Arm.from_mjcf(write(tmp_path, beside + car), base="car").n == 1
+
+
 @pytest.mark.parametrize(
     ("inside", "options", "sentence"),
     [

@@ -17,6 +17,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
+import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.cli.values import read_failures, read_task
 from holdfast.failures import failure_sets
@@ -146,6 +147,32 @@ def test_a_headline_that_is_zero_by_structure_names_the_joint():
     failed = a.dataset["by_failure"].values
     spared = np.delete(failed[np.isfinite(failed).all(axis=1)], 3, axis=1).min(axis=1)
     assert f"would be {np.quantile(spared, 0.5, method='inverted_cdf'):.3f}." in line
+
+
+def test_one_configuration_in_a_hundred_is_a_probability_and_less_is_hardly_any():
+    three = hf.arms.load("planar-3r")
+    a = hf.assess(three, hf.Region.joints([-2] * 3, [2] * 3), poses=100, task="planar")
+    top = a.distribution.highest
+    assert facts.Facts(a, top).headline.startswith("With probability 0.01 ")
+    assert facts.Facts(a, np.nextafter(top, 1)).headline.startswith("None of the 100 configurations drawn")
+
+
+@pytest.mark.parametrize(("turned", "nothing"), [(1e-9, True), (1e-8, False)])
+def test_a_manipulability_of_less_than_1e_9_after_a_lock_is_none(turned, nothing):
+    """The axes about the elbow of an iiwa miss their points by an angle, and a lock leaves 0.35 times it, as minors say."""
+    joints = list(hf.arms.load("iiwa14").joints)
+
+    def turn(angle: float) -> hf.Arm:
+        off = np.eye(4)
+        off[:3, :3] = Rotation.from_euler("x", angle).as_matrix()
+        changed = replace(joints[2], origin=joints[2].origin @ off)
+        return hf.Arm(name="turned", joints=(*joints[:2], changed, *joints[3:]), base=np.eye(4), tool=np.eye(4))
+
+    a = hf.assess(turn(turned), hf.Region.joints([-2] * 7, [2] * 7), poses=64)
+    j = oracles.task_jacobian(turn(1e-4), a.dataset["q"].values, "pose")
+    left, healthy = (np.linalg.svd(x, compute_uv=False).prod(axis=1) for x in (np.delete(j, 3, axis=2), j))
+    assert a.distribution.highest == pytest.approx(turned / 1e-4 * (left / healthy).max(), rel=1e-3)
+    assert facts.Facts(a, None).headline.startswith("No configuration of the region tolerates every failure") == nothing
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """What is left after a lock, against closed forms and brute force."""
 
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -76,6 +77,31 @@ def test_shares_agree_with_a_plain_monte_carlo_of_annuli(arm):
         share = ((parts[:, 0] < parts[:, 1]) & (parts[:, 1] < parts[:, 2])).sum() / 2000
         interval = run.survival(joint, confidence=0.9999)[f"joint{joint + 1}"]
         assert interval.low - 0.03 < share < interval.high + 0.03
+
+
+def test_the_seeds_that_a_run_names_give_its_configurations_and_locks(arm, region):
+    """By hand: the starts of block b are drawn from the seed (1, b), the locked angles from (3, b)."""
+    run = hf.assess(arm, region, poses=60, seed=7, task="planar", after_lock=True)
+    assert "starts of block b: (1, b)" in run.plan.to_dict()["seeds"]
+    assert "of its locks (3, b)" in run.plan.to_dict()["seeds"]
+    engine = solver(arm, as_task(arm, "planar"))
+    poses = region.poses(next(region.blocks(0, 7, count=60))[:60])
+    found = engine.solve(poses, np.random.SeedSequence(7, spawn_key=(1, 0)), run.plan.restarts, engine.within(1e-6))
+    rows, data = np.flatnonzero(found.success), run.dataset
+    np.testing.assert_array_equal(data["q"].values[rows], found.q[rows])
+    draw = np.random.default_rng(np.random.SeedSequence(7, spawn_key=(3, 0)).spawn(2)[0])
+    angles = [found.q[draw.choice(rows, rows.size), k] for k in range(3)]
+    np.testing.assert_array_equal(data["lock_angle"].values[rows], np.transpose(angles))
+
+
+def test_a_weighted_share_of_all_poses_is_1_whatever_the_rounding(arm):
+    poses = np.tile(np.eye(4), (3, 1, 1))
+    poses[:, 0, 3] = 0.5, 1.0, 1.5
+    run = hf.assess(arm, hf.Region.from_poses(poses, [0.1, 0.2, 0.3]), poses=3, task="planar", after_lock=True)
+    total = run.distribution.total_weight()
+    all_survive = replace(run, survivors=np.full(3, np.nextafter(total, 1)))  # the same weights, added in another order
+    for share in all_survive.survival().values():
+        assert share.value == share.high == 1
 
 
 def test_threads_and_folders_do_not_matter(arm, region, tmp_path):

@@ -86,6 +86,14 @@ def test_lengths_of_parts_that_are_left_behind():
         assert low[0] > truth - 0.05
 
 
+@pytest.mark.parametrize("slope", [1.0, 3.0, np.nan])
+def test_a_length_of_zero_with_slopes_along_one_direction(slope):
+    """Equations without a solution do not stop the verifier; the leaf proves nothing."""
+    form = Form(Balls(np.zeros((1, 3))), Balls([[[1.0], [slope], [slope]]]), Balls(np.zeros((1, 3, 1, 1))))
+    low = distances.nearest(form, 3, (np.zeros(1), 0), np.ones((1, 1)))
+    assert not (low > 0).any()
+
+
 @pytest.mark.parametrize("variables", [1, 2])
 def test_quadratic_functions(rng, variables):
     """Least and greatest values on a grid; of one variable the bound is the true one."""
@@ -245,7 +253,7 @@ def screws_from_the_middle(chain, q, first, point):
 @pytest.mark.parametrize("straight", [True, False])
 def test_screws_behind_the_first_and_second_order(rng, straight):
     """Of random arms, and of stretched planar ones, at the corners of boxes; derivatives by finite differences."""
-    for _ in range(3):
+    for _ in range(1 if straight else 2):
         n = 5
         chain = make_chain(*([(STILL, [1.0, 0, 0])] * (n + 1) if straight else random_frames(rng, n)))
         q = np.zeros(n) if straight else rng.uniform(-2, 2, n)
@@ -281,7 +289,7 @@ def test_manipulability_at_the_edge_of_a_leaf(rng, kind, width, planar):
     """The sharpest threshold that a leaf proves, when one joint moves, lies on the right side of the sampled extreme."""
     n = 4 if planar else 7
     tight = []
-    for _ in range(12):
+    for _ in range(4):
         links = [(STILL, [length, 0, 0]) for length in rng.uniform(0.3, 1, n + 1)]
         chain = make_chain(*(links if planar else random_frames(rng, n)))
         q, moving = rng.uniform(-2, 2, n), int(rng.integers(1, n - 1))
@@ -295,9 +303,9 @@ def test_manipulability_at_the_edge_of_a_leaf(rng, kind, width, planar):
         ).stored()
         given = {"joint_box": box, "arm": arm, "task": "planar-pose" if planar else "pose", "locks": [lock]}
         leaves = (bounds.Wrenches if kind == "ceiling" else bounds.Motions)(given | {"threshold": (0.5).hex()})
-        truth = [kept(chain, q + t * half, [lock])[0] for t in np.linspace(-1, 1, 41)]
+        truth = [kept(chain, q + t * half, [lock])[0] for t in np.linspace(-1, 1, 21)]
         low, high = 1e-6, 1.0
-        for _ in range(24):
+        for _ in range(13):
             leaves.threshold = (low + high) / 2
             proved = bool(leaves.proves(lock if kind == "ceiling" else 0, [(((0, 0),) * n, 0)])[0])
             low, high = (low, leaves.threshold) if proved == (kind == "ceiling") else (leaves.threshold, high)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
+import sys
 import zipfile
 
 import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.certificates import checks, reach_claim, tolerant_claim
-from holdfast.certificates.documents import qualify_claim
+from holdfast.certificates import CertificateCheck, checks, out_of_reach_claim, reach_claim, tolerant_claim, verifier
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 
@@ -72,13 +72,49 @@ def test_a_folder_stands_for_the_certificate_in_it(small, three, tmp_path):
         hf.check_certificate(tmp_path / "empty")
 
 
-def test_the_proved_fraction_stands_in_the_claim(three):
+def test_the_proved_fraction_stands_in_the_claim(three, tmp_path, monkeypatch, capsys):
     """A box of which the far half cannot be reached: the arm is 3 m long."""
     proof = hf.certify(reach_claim(three, (3.0, 0.0), (1.0, 0.1)), halvings=4)
-    assert 0 < proof.proved < 1
-    first = proof.describe()[0]
-    assert first.startswith(f"Proved for only {hf.certificates.verifier.per_cent(proof.proved)} of this claim: For every")
-    assert qualify_claim("For every x.", np.float64(1)) == "For every x."
+    assert 0 < proof.proved < 0.5
+    only = f"Proved for only {verifier.per_cent(proof.proved)} of this claim: For every"
+    file = proof.write(tmp_path / "a.certificate")
+    check = hf.check_certificate(file)
+    assert proof.describe()[0].startswith(only)
+    assert check.describe()[0].startswith(only)
+    for told in (None, check):
+        page = proof.report(tmp_path / "a.html", check=told).read_text(encoding="utf-8").replace("\N{NO-BREAK SPACE}", " ")
+        assert page.count("For every planar target") == page.count(only) == 1
+    capsys.readouterr()
+    monkeypatch.setattr(sys, "argv", ["verifier.py", str(file)])
+    assert verifier.main() == 0
+    assert capsys.readouterr().out.startswith(only)
+
+
+def test_only_a_claim_that_is_verified_as_a_whole_stands_alone(small, three, tmp_path, monkeypatch, capsys):
+    claim = "For every x."
+    assert verifier.qualify_claim(claim, np.float64(1)) == claim
+    assert verifier.qualify_claim(claim, 0) == "Not proved: For every x."
+    assert verifier.qualify_claim(claim, 0, refuted=True) == "False: For every x."
+    refuted = hf.certify(out_of_reach_claim(three, (1.5, 1.0), 0.2))
+    assert refuted.describe()[0].startswith("False: For every")
+    assert hf.check_certificate(refuted.write(tmp_path / "b.certificate")).describe()[0].startswith("False: For")
+    capsys.readouterr()
+    monkeypatch.setattr(sys, "argv", ["verifier.py", str(small)])
+    assert verifier.main() == 0
+    assert capsys.readouterr().out.startswith("For every planar target")
+
+
+def test_a_sampled_claim_does_not_stand_alone(three, tmp_path):
+    file = hf.certify(reach_claim(three, (2.6, 0.8), 0.6), halvings=4).write(tmp_path / "a.certificate")
+    assert hf.check_certificate(file, sample=1).describe()[0].startswith("Sampled, not verified: For every")
+    assert not hf.check_certificate(file).describe()[0].startswith("Sampled")
+
+
+def test_the_proved_fraction_of_a_path_is_that_of_its_worst_lock():
+    """Of one lock all is refuted, of the other all undecided: nothing is proved, and not -100 %."""
+    part = {"claim": "", "locked": "", "leaves": 0, "accepted": 0, "rejected": 0, "tolerant": 0, "seconds": 0.0, "said": ""}
+    one, two = CertificateCheck(undecided=0, refuted=1, **part), CertificateCheck(undecided=1, refuted=0, **part)
+    assert CertificateCheck(undecided=1, refuted=1, parts=(one, two), **part).proved == 0
 
 
 def test_a_time_limit_ends_a_check(small):

@@ -269,6 +269,20 @@ def test_a_forged_witness_is_rejected(three, tmp_path):
         assert ("Refuted" in verdict.sentence) == good
 
 
+@pytest.mark.parametrize(("angle", "good"), [(0.6, True), (0.06, False), (1.2, False), (6.0, False)])
+@pytest.mark.parametrize("locked", [-1, 1])
+def test_a_witness_has_its_tool_turned_into_the_box(angle, good, locked):
+    """The box of targets is a point, and rotations from 0.5 to 0.7 rad."""
+    arm, q = written.planar([1.0, 0.8, 0.5, 0.4]), [0.3, 0.7, 0.5, angle - 1.5]
+    box = [[x.hex()] * 2 for x in arm.tip(np.array(q))[:2, 3].tolist()] + [[(0.5).hex(), (0.7).hex()]]
+    stored = arm.stored()
+    claim = {"task": "planar-pose", "target": {"axes": "xya", "box": box, "orientation": None}, "locked": locked}
+    claim["angle"] = None if locked < 0 else [(0.6).hex(), (0.8).hex()]
+    claim |= {"arm": stored, "limits": [["-0x1.0p+3", "0x1.0p+3"]] * 4, "lemmas": [], "witness": [x.hex() for x in q]}
+    leaf = (((0, 0),) * 7, distances.WITNESS)
+    assert (distances.Apart(claim).rejected([leaf]) == (1, [])) == good
+
+
 def test_what_makes_no_claim(panda, three):
     with pytest.raises(InputError, match="move in the xy plane"):
         out_of_reach_claim(panda, (0.5, 0.5), 0.1)

@@ -444,6 +444,18 @@ def test_refutations_that_a_forger_changes_are_rejected(elbow, tmp_path, forge):
         assert verifier.verify(path).rejected > 0
 
 
+@pytest.mark.parametrize("value", [-7.5, 7.5])
+def test_knots_beyond_seven_radians_are_refused(moved, tmp_path, value):
+    """A joint with wide limits goes there; the verifier computes with angles below 7 rad only."""
+    document = copy.deepcopy(moved.document)
+    wide = [(-8.0).hex(), (8.0).hex()]
+    for path in (("arm", "joints", 0, "limits"), ("limits", 0)):
+        put(path, wide)(document)
+    put(("knots", 2, 0), value.hex())(document)
+    with pytest.raises(verifier.Refused, match="beyond 7 rad"):
+        verifier.verify(written.stored(written.repaired(document), tmp_path / "a.certificate"))
+
+
 def test_a_change_that_the_same_cells_prove_is_accepted(moved, tmp_path):
     """Then the file is a certificate of another claim, and a true one."""
     document = copy.deepcopy(moved.document)

@@ -12,6 +12,7 @@ from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
 from holdfast.certificates.joint_boxes import halving
 from holdfast.certificates.joint_boxes.halving import OPEN, Halving, need_room
 from holdfast.certificates.joint_boxes.jobs import summed
+from holdfast.certificates.taylor import Reach
 from holdfast.errors import InputError
 
 
@@ -65,6 +66,25 @@ def test_targets_without_configurations(three, capsys, monkeypatch):
     assert lost / drawn == pytest.approx((np.hypot(*np.meshgrid(*axes)) > 3).mean(), abs=0.12)  # four deviations
     hf.certify(reach_claim(three, [1.5, 0.5], 0.2), halvings=1)
     assert "no configuration" not in capsys.readouterr().err
-    for size, said in ((0.1, f"any of {drawn} targets"), (0.0, "this target")):
-        with pytest.raises(InputError, match=f"with joint2 locked, no configuration is found for {said}.*certify out-of-reach"):
+    for size, said in ((0.1, f"any of {drawn} sampled targets"), (0.0, "this target")):
+        with pytest.raises(InputError, match=f"with joint2 locked, no configuration was found for {said}") as refusal:
             hf.certify(reach_claim(three, [2.9, 0], size, locked={1: (1.0, 1.1)}))
+        assert "prove" not in str(refusal.value).replace("try to prove the opposite", "")
+
+
+@pytest.mark.parametrize(("centre", "size"), [((2.6, 1.2), 0.6), ((2.2, 2.2), 0.5), ((3.0, 0.0), 0.4)])
+def test_the_counts_are_those_of_a_count_by_hand(three, capsys, monkeypatch, centre, size):
+    """Three links of 1 m reach whatever is within 3 m, so the targets that were drawn can be counted without any search."""
+    monkeypatch.delenv("HOLDFAST_NOTICES", raising=False)
+    sampled, solved = [], Reach.solved
+
+    def noted(self, q, targets, *options, **named):
+        sampled.append(np.unique(targets, axis=0))
+        return solved(self, q, targets, *options, **named)
+
+    monkeypatch.setattr(Reach, "solved", noted)
+    hf.certify(reach_claim(three, list(centre), size), halvings=1)
+    said = capsys.readouterr().err
+    lost = int((np.linalg.norm(sampled[0], axis=1) > 3).sum())
+    assert f"no configuration was found for {lost} of {len(sampled[0])} sampled targets" in said
+    assert "prove" not in said

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import shlex
+import sys
 from contextlib import nullcontext
 
 import pytest
@@ -185,3 +186,106 @@ def test_the_arm_that_a_certificate_is_about(cli, refused, tmp_path):
     with pytest.raises(InputError, match="'panda': panda_joint1 differs"):
         hf.check_certificate(file, arm=panda.with_limits(0.9 * panda.lower, panda.upper))
     assert "undecided 100 %" in cli("certificate", "show", file)[1]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "reach planar-3r --box '1.5 0.5' --size 0.4",
+        "tolerant planar-3r --box '1.5 0.5' --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4",
+        "tolerant planar-3r --box '1.5 0.5' --size 0.1 --find-ranges",
+        "out-of-reach planar-3r --box '2.5 1' --size 0.2",
+        "ceiling panda --around '0 0 0 -1 0 1 0' --within 0.01 --below 0.1",
+        "floor panda --around '0 0 0 -1 0 1 0' --within 0.01 --above 0.01",
+        "structural-zero iiwa14 lbr_iiwa_joint_4",
+    ],
+)
+def test_python_flint_is_asked_for_before_the_search(refused, monkeypatch, tmp_path, words):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setitem(sys.modules, "flint", None)
+    for search in ("certify", "find_working_ranges"):
+        monkeypatch.setattr(hf, search, lambda *_, **__: pytest.fail("the search begins"))
+    assert "pip install 'holdfast[certify]'" in refused("certify", *shlex.split(words))
+    assert not list(tmp_path.iterdir())
+
+
+def test_without_a_check_python_flint_is_not_needed(cli, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "flint", None)
+    words = ["certify", "reach", "planar-3r", "--box", "1.5 0.5", "--size", "0.02", "--out", tmp_path / "a.certificate"]
+    assert cli(*words, "--no-check")[0] == 0
+
+
+@pytest.mark.parametrize(("spent", "left"), [(2.0, 8.0), (30.0, 0.0)])
+def test_the_time_limit_is_that_of_search_and_check_together(cli, monkeypatch, tmp_path, spent, left):
+    """Half is kept for the check, which gets what the search leaves as well; the clock is the test's."""
+    clock, limits = iter([100.0, 100.0 + spent]), []
+    search, check = hf.certify, hf.check_certificate
+    monkeypatch.setattr("holdfast.cli.certify_search.monotonic", lambda: next(clock))
+    monkeypatch.setattr(hf, "certify", lambda *a, **b: limits.append(b.pop("time_limit")) or search(*a, **b))
+    monkeypatch.setattr(hf, "check_certificate", lambda *a, **b: limits.append(b["time_limit"]) or check(*a, **b))
+    file = tmp_path / "a.certificate"
+    words = ["certify", "reach", "planar-3r", "--box", "1.5 0.5", "--size", "0.02", "--out", file]
+    code, _, err = cli(*words, "--time-limit", "10")
+    assert limits == [5.0, left]
+    assert (code, "ended the check" in err) == ((0, False) if left else (3, True))
+    monkeypatch.undo()
+    assert hf.check_certificate(file).ok  # what the search found is written, and can be verified later
+
+
+def test_a_folder_that_out_named_is_shown_and_checked(cli, refused, tmp_path):
+    words = ["certify", "tolerant", "planar-3r", "--box", "2.95 0", "--size", "0.1", "--halvings", "2"]
+    ranges = [text for joint in "123" for text in ("--range", f"{joint}=-0.3..0.3")]
+    assert cli(*words, *ranges, "--out", tmp_path / "box")[0] == 3
+    (first, *_), last = (lines := cli("certificate", "show", tmp_path / "box")[1].splitlines()), lines[-1]
+    assert first.startswith("Not verified")
+    assert "at any value of its range" in first
+    assert "undecided" in last
+    assert cli("certificate", "check", tmp_path / "box")[0] == 0
+    file = tmp_path / "reach.certificate"
+    reach = ["certify", "reach", "planar-3r", "--box", "2.5 0", "--size", "1.2 0.1", "--halvings", "4", "--out", file]
+    code, out, _ = cli(*reach)
+    assert code == 3
+    share = out.split("Proved for only ")[1].split(" %")[0]
+    assert cli("certificate", "show", file)[1].startswith(f"Not verified, proved for only {share} % of this claim: For every")
+    (tmp_path / "empty").mkdir()
+    assert "holds no certificate" in refused("certificate", "show", tmp_path / "empty")
+
+
+def test_ranges_are_found_printed_and_certified(cli, tmp_path):
+    """The printed command proves the same claim, without the search."""
+    words = ["certify", "tolerant", "planar-3r", "--box", "1.5 0.5", "--size", "0.1", "--range=3=-2.5..2.5", "--find-ranges"]
+    page = tmp_path / "a.html"
+    code, out, err = cli(*words, "--out", tmp_path / "a", "--report", page)
+    assert (code, err) == (0, "")
+    assert "104 sampled targets" in out
+    assert "The limiting joint is joint1: its range of -66.16 to 103.8 deg is 47.2 % of its limits." in " ".join(out.split())
+    assert "Proved: 100 %" in out
+    text = page.read_text(encoding="utf-8")
+    assert "The limiting joint is joint1" in text
+    assert "169.9 deg" in text.replace("\N{NO-BREAK SPACE}", " ")
+    (line,) = [line for line in out.splitlines() if line.startswith("The same claim without the search: holdfast ")]
+    again = shlex.split(line.partition(": holdfast ")[2])
+    assert again.count("--range") == 3
+    assert not {"--find-ranges", "--range=3=-2.5..2.5"} & set(again)
+    claim = json.loads((tmp_path / "a" / "tolerant.certificate").read_text())["claim"]
+    assert cli(*again, "--out", tmp_path / "b")[0] == 0
+    assert json.loads((tmp_path / "b" / "tolerant.certificate").read_text())["claim"] == claim
+    code, out, _ = cli(*words, "--out", tmp_path / "c", "--no-check", "--json")
+    document = json.loads(out)
+    assert document["claim"] == claim
+    assert document["found_ranges"]["limiting_joint"] == "joint1"
+    assert document["found_ranges"]["options"] == again[again.index("--range") + 1 :: 2]
+
+
+def test_ranges_that_are_not_found_are_said_and_nothing_is_written(cli, refused, tmp_path):
+    words = ["certify", "tolerant", "planar-3r", "--box", "3 0", "--size", "0.2", "--find-ranges", "--out", tmp_path / "a"]
+    code, out, _ = cli(*words)
+    assert code == 3
+    assert "Not found: with the best working ranges" in out
+    code, out, _ = cli(*words, "--json")
+    assert code == 3
+    assert json.loads(out)["found"] is False
+    assert not list(tmp_path.iterdir())
+    assert "outside of its limits" in refused(*words, "--range", "1=-9..9")
+    (tmp_path / "arm.urdf").write_text("<robot/>")
+    assert "is there, and no certificate" in refused(*words[:-1], tmp_path / "arm.urdf")

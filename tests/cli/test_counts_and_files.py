@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from holdfast.assessment.bins import Counts
 from holdfast.engine import Study, Threads
+from holdfast.indices import by_name
 from holdfast.studies import study_file
 from holdfast.studies.template import choose_chunk
 
@@ -26,6 +28,8 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
     np.testing.assert_array_equal(counted.worst_counts, rows.worst_counts)
     np.testing.assert_array_equal(counted.optimised_worst_counts, rows.optimised_worst_counts)
     for optimised in (False, True):
+        for name in ("lowest", "highest", "mean", "reached", "unreached", "singular"):
+            assert getattr(counted.of(optimised), name) == pytest.approx(getattr(rows.of(optimised), name), rel=1e-12), name
         edges = counted.of(optimised).edges[5:-2:97]
         np.testing.assert_array_equal(counted.cdf(edges, optimised), rows.cdf(edges, optimised))
     curves = counted.plot("cdf").axes[0].get_lines()[:2]
@@ -33,6 +37,31 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
         x, share = curve.get_data()
         np.testing.assert_allclose(share, counted.cdf(x, optimised), atol=1e-12)
         assert np.abs(share - rows.cdf(x, optimised)).max() < 0.02
+
+
+def test_a_study_with_counts_of_few_poses_has_that_many(tmp_path):
+    path = tmp_path / "s.yaml"
+    path.write_text("{poses: 40, chunk: 1024, arms: [planar-3r], assess: {restarts: 2, keep: counts}}")
+    asked = study_file.read(path)
+    Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells).run(asked.cells, Threads(1))
+    counted = hf.load(tmp_path / "out")
+    assert (counted.poses, counted.distribution.samples, counted.complete) == (40, 40, True)
+
+
+@pytest.mark.parametrize("name", ["relative-manipulability", "condition-number"])
+def test_counts_of_values_are_those_of_each_value(name, rng):
+    """Bins without a bound go from 2^-40 to 2^40, 64 to a factor of two; those below a bound are 4,096 of the same width."""
+    index = by_name(name, hf.arms.load("planar-3r"), "planar")
+    values = 2.0 ** rng.uniform(0, 38, 3000) if index.bound is None else index.bound * rng.random(3000)
+    counts = Counts(index)
+    for part in np.split(values, [500, 501, 2200]):
+        counts.add(part, unreached=2, singular=1)
+    found = counts.finish()
+    assert (found.samples, found.reached, found.unreached, found.singular) == (3008, 3000, 8, 4)
+    assert (found.lowest, found.highest) == (values.min(), values.max())
+    assert found.mean == pytest.approx(values.mean(), rel=1e-12)
+    edges = 2.0 ** (np.arange(-2560, 2561) / 64) if index.bound is None else np.linspace(0, index.bound, 4097)
+    np.testing.assert_array_equal(found.counts[found.counts > 0], [n for n in np.histogram(values, edges)[0] if n])
 
 
 @pytest.mark.parametrize(("name", "ending"), [("planar-3r", "yaml"), ("pa10-9dof", "yaml"), ("panda", "urdf")])

@@ -14,7 +14,7 @@ BASINS = ["basins", "planar-3r", "--target", "1.5,1.5", "--lock", "2=140", "--de
 def test_rest_points(cli, ask):
     data = ask(*POINTS)
     assert [p["kind"] for p in data["points"]] == ["sink", "saddle", "saddle", "source"]
-    assert data["points"][0]["error"] == pytest.approx(0.6456, abs=1e-4)
+    assert data["points"][0]["position_error_m"] == pytest.approx(0.6456, abs=1e-4)
     assert data["points"][0]["q"]["joint1"] == pytest.approx(np.deg2rad(-10.5639), abs=1e-5)
     code, out, err = cli(*POINTS)
     assert (code, err) == (0, "")

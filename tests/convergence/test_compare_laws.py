@@ -139,7 +139,7 @@ def test_the_table_holds_what_the_cases_hold(compared):
         case = compared.case(row["law"], row["failure"])
         assert sum(row[o] for o in ("converged", "stuck", "moving", "undecided")) == pytest.approx(1)
         assert row["converged_low"] <= row["converged"] <= row["converged_high"]
-        assert row["error_50"] == pytest.approx(np.median(case.error))
+        assert row["position_error_m_50"] == pytest.approx(np.median(case.error))
         assert row["converged_within_limits"] <= min(row["converged"], 1 - row["past_limits"] + 1e-12)
     assert any("pseudoinverse" in line for line in compared.describe())
 
@@ -165,12 +165,12 @@ def test_a_row_of_the_table_by_runs_of_scipy(compared, motions, arm):
     assert row["reachable"] == pytest.approx((least == 0).mean())
     assert row["past_limits"] == pytest.approx(past.mean())
     for level in (5, 25, 50, 75, 95):
-        assert row[f"error_{level:02d}"] == pytest.approx(np.quantile(error, level / 100), abs=1e-5)
+        assert row[f"position_error_m_{level:02d}"] == pytest.approx(np.quantile(error, level / 100), abs=1e-5)
         assert row[f"excess_{level:02d}"] == pytest.approx(np.quantile(error - least, level / 100), abs=1e-5)
     assert row["closest"] == pytest.approx(np.median(closest), abs=1e-5)
     assert row["path_ratio"] == pytest.approx(np.median(ratio), rel=1e-3)
     assert row["excursion"] == pytest.approx(np.median(excursion), rel=1e-3)
-    assert row["astray"] == pytest.approx(np.median(error[there == 0]), abs=1e-5)
+    assert row["position_error_m_astray"] == pytest.approx(np.median(error[there == 0]), abs=1e-5)
 
 
 def test_the_report_is_well_formed_and_its_tables_can_be_read(compared, tmp_path):

@@ -173,6 +173,9 @@ def test_no_changed_bit_or_digit_of_bounds_is_accepted(crane, healthy, tmp_path,
         file.write_bytes(data)
         with pytest.raises(InputError, match="bounds '"):
             hf.diagnosis.load(file)
+    file.write_bytes(sound.partition(b',\n  "digest"')[0] + b"\n}\n")
+    with pytest.raises(InputError, match="digest does not match"):
+        hf.diagnosis.load(file)
     file.write_bytes(sound)
     assert np.array_equal(hf.diagnosis.load(file).torque, bounds.torque)
 
@@ -185,3 +188,37 @@ def test_a_fast_record_without_torques_is_printed_without_a_warning(crane, healt
     found = hf.diagnosis.diagnose(crane, Log(t=t, q_ref=fast, q=fast + 1e-4), bounds)
     assert not found.verdict.alarm
     assert found._presented("tables")[0].rows
+
+
+@pytest.mark.parametrize("joints", [[0, 1, 2], [1]])
+@pytest.mark.parametrize("signal", ["q_ref", "q", "tau"])
+def test_a_joint_without_a_number_is_named(crane, healthy, signal, joints):
+    bounds = calibrated(crane, healthy)
+    empty = np.where(np.isin(np.arange(3), joints), np.nan, 1.0)
+    logs = changed(healthy, **{signal: lambda values: values * empty})
+    for attempt in (lambda: calibrated(crane, logs), lambda: hf.diagnosis.diagnose(crane, logs[0], bounds)):
+        with pytest.raises(InputError, match=rf"{signal} of '{crane.joint_names[joints[0]]}' has no number"):
+            attempt()
+
+
+def test_joints_that_move_against_each_other_are_not_taken_for_one_another(crane):
+    """Joint 3 nearly mirrors joint 1, correlation -0.95, so that swapped joints look like a joint of the other sign."""
+    t = np.arange(3000) / 200
+    q_ref = np.stack([0.3 * np.sin(t), 0.3 * np.sin(0.7 * t), -0.3 * np.sin(t) + 0.1 * np.sin(2.3 * t)], axis=1)
+    assert -0.98 < np.corrcoef(q_ref.T)[0, 2] < -0.9
+    lag = q_ref - 1e-3 * np.cos(t)[:, None]
+    hf.diagnosis.calibrate(crane, [Log(t=t, q_ref=q_ref, q=lag)])
+    with pytest.raises(InputError, match="q of 'slew' does not follow its q_ref; it follows that of 'fold'"):
+        hf.diagnosis.calibrate(crane, [Log(t=t, q_ref=q_ref, q=lag[:, ::-1])])
+
+
+def test_cut_off_angles_of_a_joint_whose_limits_pass_the_half_turn():
+    """Joint 2 of this arm goes from 0.8 to 5.5 rad; a driver that cuts angles off at 180 degrees gives it negative ones."""
+    arm = hf.arms.load("kinova-j2s6s200")
+    t = np.arange(3000) / 200
+    q_ref = 3.3 + 0.3 * np.sin(t)[:, None] * np.ones(arm.n)
+    whole = Log(t=t, q_ref=q_ref, q=q_ref - 1e-3 * np.cos(t)[:, None])
+    cut = changed([whole], **dict.fromkeys(("q_ref", "q"), lambda q: (q + np.pi) % (2 * np.pi) - np.pi))[0]
+    assert (cut.q_ref[:, 1] < 0).any()
+    bounds = [hf.diagnosis.calibrate(arm, [log]) for log in (whole, cut)]
+    np.testing.assert_allclose(bounds[1].tracking, bounds[0].tracking, rtol=1e-9)

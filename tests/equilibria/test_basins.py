@@ -74,7 +74,15 @@ def test_limit_cycle(three, angle, width, period):
     assert found.amplitude[1] == 0
     assert not found.windings.any()
     if angle == 168.30:
-        assert found.error == pytest.approx((0.809, 0.997), abs=1e-3)
+        assert found.position_error == pytest.approx((0.809, 0.997), abs=1e-3)
+        assert found.angle_error == (0.0, 0.0)
+        path = runs.path(samples=20_000)
+        distance = np.linalg.norm(path.x[:, :2] - [0.9, 0.0], axis=1)
+        first = np.abs(path.q[:, 0] - found.q[0]).argmin()  # the orbit passes here, then its farthest point within a period
+        once = (path.time >= path.time[first]) & (path.time <= path.time[first] + found.period)
+        if path.time[-1] >= path.time[first] + found.period:
+            later = path.time[once][distance[once].argmax()] - path.time[first]
+            assert found.largest_times[0] == pytest.approx(later, abs=0.5)
         assert found.describe() == [f"limit cycle (period {found.period:.4g} s)"]
 
 

@@ -18,7 +18,8 @@ TEST = "import toy\n\ndef test_largest_step():\n    assert toy.largest_step([1, 
 
 
 @pytest.fixture
-def toy(tmp_path):
+def toy(tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # each run of the tests starts in a third of the time
     (tmp_path / "src").mkdir()
     (tmp_path / "src/toy.py").write_text(TOY)
     (tmp_path / "test_toy.py").write_text(TEST)
@@ -27,8 +28,9 @@ def toy(tmp_path):
 
 def test_a_mutation_in_a_dead_branch_survives_and_others_do_not(toy):
     mutations = choose_mutations(toy, [Path("src/toy.py")], 10, seed=3)
-    survives = dict(try_mutations(toy, mutations, ["test_toy.py"], 60.0))
-    assert {mutation.line: result for mutation, result in survives.items()} == {3: False, 4: True, 5: False}
+    failures = dict(try_mutations(toy, mutations, ["test_toy.py"], 60.0))
+    name = "test_toy.py::test_largest_step"
+    assert {mutation.line: failure for mutation, failure in failures.items()} == {3: name, 4: None, 5: name}
     assert (toy / "src/toy.py").read_text() == TOY
 
 

@@ -32,7 +32,7 @@ RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs Endurance Execution "
         "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
-        "Trajectory Workspace",
+        "Trajectory WorkingRanges Workspace",
         "bench": "FailActive",
         "ceilings": "Ceiling CeilingSearch CeilingTable SingularValueCeiling",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",

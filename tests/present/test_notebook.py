@@ -130,6 +130,7 @@ MADE = {
     "TradeOff": found(lambda: hf.control.trade_off(arm(), "planar", samples=10, allowed=[0, 0.5])),
     "Trajectory": found(lambda: hf.follow(arm(), timed(), maximise=index(), q=X, samples=5)),
     "WaypointCheck": lambda: recovered().check(),
+    "WorkingRanges": found(lambda: hf.find_working_ranges(arm(), (1.5, 0.5), 0.1, targets=2, values=8)),
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
@@ -147,7 +148,7 @@ WITHOUT_FIGURE |= {
     "RecordCheck",
     "Synthesis",
 }
-WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck"}
+WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
     "Analysis",
     "Bounds",

@@ -29,6 +29,7 @@ PARTS = {
     "Configurations",
     "StructuralZero",
     "WaypointCheck",
+    "WorkingRanges",
 }  # of a result, without a command that writes their page
 PARTS |= {"Book", "Ceiling", "CeilingSearch", "CeilingTable", "FaultBatch", "Orders", "Record", "RecordCheck", "Synthesis"}
 PARTS |= {"SingularValueCeiling"}

@@ -151,15 +151,14 @@ def only_tip(tree: Tree, base: str) -> str:
 def possible_tips(tree: Tree, base: str) -> list[str]:
     """Links at which an arm mounted on ``base`` could end, the farthest from the base first.
 
-    Those are the links that carry nothing, fingers being left off: a flange and the frames beside it are as good as the end
-    of the longest chain. Where it cannot be told whether a joint moves a finger, the link that carries it is a candidate too.
+    Those are the links that carry nothing, fingers being left off, and a link that carries what may be a finger. A flange
+    and the frames beside it are as good as the end of the longest chain. An object that only floats is no end.
     """
     below: dict[str, tuple[bool, bool]] = {}  # link: whether fingers at most, or what may be fingers at most, move behind it
     for link in reversed(list(tree.links_from(base))):
-        hanging = tree.below[link]
         below[link] = (
-            all(below[j.child][0] and (not j.moving or _is_finger(j)) for j in hanging),
-            all(below[j.child][1] and (not j.moving or _is_finger(j) or _may_be_finger(tree, j)) for j in hanging),
+            all(below[j.child][0] and (not j.moving or _is_finger(j)) for j in tree.below[link]),
+            all(below[j.child][1] and (not j.moving or _is_finger(j) or _may_be_finger(tree, j)) for j in tree.below[link]),
         )
     moved = {base: 0}  # link: how many joints move it, fingers left off
     found: dict[str, int] = {}
@@ -171,7 +170,8 @@ def possible_tips(tree: Tree, base: str) -> list[str]:
         doubtful = any(j.moving and below[j.child][1] and _may_be_finger(tree, j) for j in kept)
         if moved[link] and (not kept or doubtful):
             found[link] = moved[link]
-    return sorted(found, key=lambda link: -found[link])
+    driven = [link for link in found if any(joint.type in MOVING for joint in tree.path(base, link))]
+    return sorted(driven or found, key=lambda link: -found[link])
 
 
 def likely_tip(tree: Tree, base: str, candidates: Sequence[str]) -> str:

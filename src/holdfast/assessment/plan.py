@@ -22,7 +22,7 @@ from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.failures import locks_at
 from holdfast.indices.index import Index, by_name
-from holdfast.indices.own_file import FileIndex
+from holdfast.indices.own_file import check_digest, plan_entries
 from holdfast.regions.region import Region, Sampling
 from holdfast.registry import INDICES
 from holdfast.solvers.optimum import default_starts
@@ -137,7 +137,7 @@ class Plan:
             "arm": to_dict(self.arm),
             "fingerprint": self.arm.fingerprint,
             "region": self.region.to_dict(),
-            "index": index.label,
+            **plan_entries(index),
             "task": task.to_dict(),
             "failures": [[self.arm.joint_names[k] for k in f] for f in index.failures],
             "seed": self.seed,
@@ -146,8 +146,6 @@ class Plan:
             "seeds": "poses of block b: SeedSequence(seed, spawn_key=(0, b)); starts of block b: (1, b), of its optimisation "
             f"(2, b), of its locks (3, b); {self.region.block} poses per block",
         }
-        if isinstance(index, FileIndex):
-            data["index_digest"] = index.digest
         if self.optimise:
             data["optimise"] = default_starts(self.arm, task)
         if self.after_lock:
@@ -186,11 +184,7 @@ class Plan:
             raise InputError("its fingerprint is not that of its arm, so its rows may be those of another arm")
         task = Task.from_dict(data["task"])
         index = by_name(data["index"], arm, task, failures=[list(f) for f in data["failures"]])
-        if isinstance(index, FileIndex) and index.digest != data["index_digest"]:
-            raise StoreError(
-                f"the function of index '{index.label}' has changed since these results were computed; restore it, or compute "
-                "into a new folder"
-            )
+        check_digest(index, data)
         region = Region.from_dict(data["region"])
         apart = data.get("clearance")
         return cls(

@@ -13,7 +13,7 @@ from time import monotonic
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.documents import need_arm, qualify_claim
+from holdfast.certificates.documents import need_arm
 from holdfast.errors import HoldfastError, InputError
 from holdfast.notice import says
 from holdfast.result import Result
@@ -56,12 +56,14 @@ class CertificateCheck(Result):
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        return [qualify_claim(self.claim, self.proved), self.said]
+        sampled = self.accepted + self.rejected < self.leaves
+        proved = self.tolerant if self.parts else self.proved
+        return [verifier.qualify_claim(self.claim, proved, refuted=self.witnessed, sampled=sampled), self.said]
 
     @property
     def proved(self) -> Fraction:
         """Exact fraction of the claim that is proved; of a bundle in its worst part."""
-        return 1 - self.undecided - self.refuted
+        return min((part.proved for part in self.parts), default=1 - self.undecided - self.refuted)
 
 
 class CheckStopped(HoldfastError):
@@ -92,7 +94,7 @@ def check_certificate(
         InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra
             ``certify``).
     """
-    file = _find_in_folder(Path(file))
+    file = find_in_folder(Path(file))
     if workers < 1 or (sample is not None and sample < 1):
         raise InputError("sample and workers must be 1 or more")
     try:
@@ -123,7 +125,7 @@ def _stop_after(time_limit: float | None) -> Callable[[int], None]:
     return stop
 
 
-def _find_in_folder(path: Path) -> Path:
+def find_in_folder(path: Path) -> Path:
     """Return the certificate in a folder, of a bundle the one that names its parts; another path is returned as it is."""
     if not path.is_dir():
         return path

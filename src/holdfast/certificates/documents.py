@@ -240,10 +240,3 @@ def _hexes(values: NDArray[np.float64] | float) -> Any:
 
 def _packed(data: bytes) -> str:
     return base64.b64encode(zlib.compress(data, 9)).decode()
-
-
-def qualify_claim(claim: str, proved: Fraction) -> str:
-    """Return the sentence of a claim, with the proved fraction in front unless all of the claim is proved."""
-    if proved == 1:
-        return claim
-    return f"{f'Proved for only {verifier.per_cent(proved)} of this claim' if proved else 'Not proved'}: {claim}"

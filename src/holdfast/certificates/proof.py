@@ -70,7 +70,7 @@ class Proof(Halved):
     def describe(self) -> list[str]:
         """A few sentences for people."""
         return [
-            documents.qualify_claim(self.document["claim"], self.proved),
+            verifier.qualify_claim(self.document["claim"], self.proved),
             f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)}, "
             f"undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
@@ -195,7 +195,7 @@ class TolerantProof(InParts):
         worst = "the healthy arm" if self.worst.claim.locked < 0 else f"a lock of {self.named(self.worst)}"
         most = "" if self.ok else f", at most, with {worst}"
         return [
-            documents.qualify_claim(self.document()["claim"], self.proved),
+            verifier.qualify_claim(self.document()["claim"], self.tolerant),
             f"Found by the prover, not yet verified: whatever locks, proved {verifier.per_cent(self.tolerant)} of the targets "
             f"at least; undecided {verifier.per_cent(self.undecided, up=True)}{most}{early(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "

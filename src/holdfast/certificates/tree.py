@@ -24,7 +24,7 @@ class SearchState:
         refuted: Likewise, of a path; of other claims all is refuted by one witness.
         open: The share that is still to be looked at.
         nodes: Boxes that were looked at.
-        warning: What is known beforehand: that much of it cannot be proved; or empty.
+        warning: Of how many sampled targets no configuration was found, if of many; or empty.
     """
 
     proved: float

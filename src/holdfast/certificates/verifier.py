@@ -6,7 +6,7 @@ far from them doubles are at most), from exact first and second derivatives and 
 said at the top of a module in the folder beside this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
 (ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` is the form of
 the file, ``words`` what it claims, ``tree`` and ``paths`` which cells it has, ``chain`` the arm and its target, ``taylor`` what
-most leaves are proved by. These are 1,399 lines of code in all, without docstrings and comments; the explanation of
+most leaves are proved by. These are 1,411 lines of code in all, without docstrings and comments; the explanation of
 certificates in the documentation says which have to be read for one claim.
 """
 
@@ -45,7 +45,8 @@ else:  # run as a file: the folder lies beside it
     from verified import balls, bounds, distances, files, forms, motions, paths, targets, tree, words, zeros
 
 Refused, need, real, digest, unpacked = forms.Refused, forms.need, forms.real, forms.digest, forms.unpacked
-load, per_cent, sentence, snap, exact_rotation = files.load, words.per_cent, words.sentence, zeros.snap, zeros.exact_rotation
+load, snap, exact_rotation = files.load, zeros.snap, zeros.exact_rotation
+per_cent, sentence, qualify_claim = words.per_cent, words.sentence, words.qualify_claim
 cells, covered, volume, MOST_LEAVES = tree.cells, tree.covered, tree.volume, tree.MOST_LEAVES
 MOST_STEPS, LOCK, FOR_PEOPLE = tree.MOST_STEPS, bounds.LOCK, forms.FOR_PEOPLE
 CLAIMS: dict[str, Any] = {"reach": targets.Leaves, "refutation": distances.Apart, "structural-zero": zeros.Meeting}
@@ -81,6 +82,17 @@ class Verdict:
         return 1 - tree.covered(self.shadow, [tree.MOST_STEPS]) if self.whichever is None else self.whichever
 
     @property
+    def proved(self) -> Fraction:
+        """Exact proved fraction of the claim; of a bundle in its worst part."""
+        return min((part.proved for part in self.parts), default=1 - self.undecided - self.false)
+
+    @property
+    def claim(self) -> str:
+        """The sentence of the claim, with the fraction of it that is verified; of a bundle, whatever locks."""
+        proved = self.tolerant if self.parts else self.proved
+        return words.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.sampled)
+
+    @property
     def sentence(self) -> str:
         """What was found, for people: never rounded up to the whole or down to nothing."""
         kind, at = self.document["kind"], self.document.get("witness") or self.document.get("found") or ()
@@ -91,8 +103,7 @@ class Verdict:
             best = f"{(math.floor if kind == 'ceiling' else math.ceil)(self.occurs * 1e6) / 1e6:.6f} occurs, {best}"
             if self.refuted:
                 return f"Refuted: {best}."
-        proved = 1 - self.undecided if self.whichever is None else min(x.whichever or 0 for x in self.parts or (self,))
-        text = f"Proved: {words.per_cent(Fraction(proved))}" + f", refuted: {words.per_cent(self.false)}" * bool(self.false)
+        text = f"Proved: {words.per_cent(self.proved)}" + f", refuted: {words.per_cent(self.false)}" * bool(self.false)
         text += f", undecided: {words.per_cent(self.undecided, up=True)}"
         text += " of all pairs of target and configuration" * (kind == "refutation") + " of the lock instants" * (
             kind == "path"
@@ -239,7 +250,7 @@ def main() -> int:
         return 2
     print("\r" * bool(done[0]), end="", file=sys.stderr)
     for part in (*verdict.parts, verdict):
-        print(part.document["claim"], part.sentence, sep="\n")
+        print(part.claim, part.sentence, sep="\n")
     return int(verdict.rejected > 0)
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -14,7 +17,12 @@ from holdfast.cli.larger.study import stopping
 from holdfast.cli.options import NOT_MET
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
+from holdfast.present.printing import print_json
 from holdfast.present.results import drawn, printed, said
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+    from holdfast.reach import WorkingRanges
 
 
 def _need_place(out: Path, folder: bool) -> None:
@@ -27,19 +35,52 @@ def _need_place(out: Path, folder: bool) -> None:
         raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")
 
 
-def proved(claim: Any, search: Search, written: Written, **how: Any) -> None:
-    """Search, write, check, draw, print."""
-    from holdfast.certificates import PathProof, TolerantClaim
-    from holdfast.certificates.checks import CheckStopped, need_flint
-    from holdfast.present.certificates.console import state
+def _need_place_and_flint(search: Search, written: Written, folder: bool) -> None:
+    """Refuse before any search what could not be written or checked after it."""
+    from holdfast.certificates.checks import need_flint
 
-    _need_place(written.out, isinstance(claim, TolerantClaim))
+    _need_place(written.out, folder)
     if search.check:
         need_flint()
+
+
+def prove_with_found_ranges(arm: Arm, asked: dict[str, Any], search: Search, written: Written, **how: Any) -> None:
+    """Find working ranges for a failure-tolerant box, print them with the command that gives them, and prove the claim."""
+    _need_place_and_flint(search, written, folder=True)
+    found = hf.find_working_ranges(arm, **asked, seed=how["seed"])
+    if not (found.ok and written.json_):
+        printed(found, written.json_)
+    if not found.ok:
+        raise typer.Exit(NOT_MET)
+    if not written.json_:
+        typer.echo(f"The same claim without the search: {_command_with(found.options)}\n")
+    proved(found.claim, search, written, ranges=found, **how)
+
+
+def _command_with(ranges: Sequence[str]) -> str:
+    """The command that runs, with these ranges in degrees in place of those that it was given."""
+    kept, words = list[str](), iter(sys.argv[1:])
+    for word in words:
+        option, equals, _ = word.partition("=")
+        if option in ("--range", "--ranges"):
+            if not equals:
+                next(words, None)
+        elif option not in ("--find-ranges", "--degrees"):
+            kept.append(word)
+    return f"holdfast {shlex.join([*kept, '--degrees', *(word for text in ranges for word in ('--range', text))])}"
+
+
+def proved(claim: Any, search: Search, written: Written, ranges: WorkingRanges | None = None, **how: Any) -> None:
+    """Search, write, check, draw, print; ranges that were found for the claim are on the page and in the JSON."""
+    from holdfast.certificates import PathProof, TolerantClaim
+    from holdfast.certificates.checks import CheckStopped
+    from holdfast.present.certificates.console import state
+
+    _need_place_and_flint(search, written, isinstance(claim, TolerantClaim))
     # Of a limited time half is kept for the check, which gets what the search leaves as well.
-    begin, limit = monotonic(), search.time_limit
-    if limit is not None and search.check:
-        limit /= 2
+    begin, limit = monotonic() - (ranges.seconds if ranges else 0.0), search.time_limit
+    if limit is not None:
+        limit = max(limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if search.check else 1)
     bar = progress_bar(written.json_, "ten-thousandths")
     with stopping("") as stop, bar as progress:
         how |= {"time_limit": limit, "workers": search.workers, "store": search.store}
@@ -56,8 +97,13 @@ def proved(claim: Any, search: Search, written: Written, **how: Any) -> None:
                 f"'holdfast certificate check {file}' verifies it.",
                 err=True,
             )
-    page = [] if written.report is None else [proof.report(written.report, command=said(), check=found, file=file)]
-    printed(found or proof, written.json_, [file, *drawn(proof, written.plot), *page])
+    told = {"ranges": ranges} if ranges else {}
+    page = [] if written.report is None else [proof.report(written.report, command=said(), check=found, file=file, **told)]
+    files = [file, *drawn(proof, written.plot), *page]
+    if written.json_ and ranges:
+        print_json((found or proof).to_dict() | {"found_ranges": ranges.to_dict()})
+    else:
+        printed(found or proof, written.json_, files)
     if stop():
         raise KeyboardInterrupt
     if found is not None and found.rejected:

@@ -177,7 +177,7 @@ def read_objective(arm: Arm, option: str, text: str, task: str | Task, failures:
 
 _SUMMAND = re.compile(
     r"\s*(?P<sign>[+-])?\s*(?:(?P<factor>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*\*\s*)?"
-    r"(?P<name>[A-Za-z]\w*(?:-[A-Za-z]\w*)*)(?:\s*:\s*(?P<weights>[^\s+,]+(?:\s*,\s*[^\s+,]+)*))?\s*"
+    r"(?P<name>[A-Za-z_]\w*(?:[-.][A-Za-z_]\w*)*)(?:\s*:\s*(?P<weights>[^\s+,]+(?:\s*,\s*[^\s+,]+)*))?\s*"
 )
 
 
@@ -192,8 +192,8 @@ def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | 
             )
         given = {} if weights is None else {"weights": _joint_weights(arm, option, name, weights)}
         found = SUSCEPTIBILITIES.make(name, arm, option=option, **given)
-    elif name in INDICES:
-        found = INDICES.make(name if weights is None else f"{name}:{weights}", arm, option=option, task=task, failures=failures)
+    elif INDICES.covers(label := name if weights is None else f"{name}:{weights}"):
+        found = INDICES.make(label, arm, option=option, task=task, failures=failures)
     else:
         raise InputError(f"{option}: {unknown('objective', name, SUSCEPTIBILITIES, INDICES)}")
     return found

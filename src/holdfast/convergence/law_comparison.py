@@ -17,6 +17,7 @@ from holdfast.errors import InputError
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.result import Result
 from holdfast.simulation.batch import ARRIVES
+from holdfast.simulation.errors import error_kinds
 from holdfast.simulation.runs import UNDECIDED, Outcome, Runs
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+ErrorOf = Literal["error", "excess", "closest", "position_error", "angle_error"]
 HEALTHY, ANY = "healthy", "any joint"
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
@@ -41,7 +43,9 @@ class Case:
         reason: (N,) :class:`holdfast.simulation.Reason`.
         reachable: (N,) True where the target can still be reached with the joint locked, as far as was found
             and joint limits left aside.
-        error: (N,) norm of the task's error at the end, m and rad.
+        error: (N,) norm of the task's error at the end, m and rad, as the law's own command has it.
+        position_error: (N,) distance of the tool point from the target at the end in the directions of the task, m.
+        angle_error: (N,) angle of the end effector from the target at the end in the directions of the task, rad.
         excess: (N,) that minus the least error that the failed arm could have, as far as was found.
         closest: (N,) least error on the way.
         path_length: (N,) m, of the tool point.
@@ -58,6 +62,8 @@ class Case:
     reason: NDArray[np.uint8]
     reachable: Flags
     error: Array
+    position_error: Array
+    angle_error: Array
     excess: Array
     closest: Array
     path_length: Array
@@ -176,6 +182,8 @@ class LawComparison(Result):
             reason=r.reason[rows],
             reachable=least <= self.accuracy,
             error=r.error[rows],
+            position_error=r.position_error[rows],
+            angle_error=r.angle_error[rows],
             excess=r.error[rows] - np.fmin(least, r.error[rows]),
             closest=r.closest[rows],
             path_length=r.path_length[rows],
@@ -254,9 +262,7 @@ class LawComparison(Result):
             raise InputError(f"no target is within reach with '{before.failure}' locked; leave out among_reachable")
         return Difference.of_pairs(_arrived(before, generous[0])[some], _arrived(after, generous[1])[some])
 
-    def change(
-        self, law: str, of: Literal["error", "excess", "closest"], failure: str | int = ANY, *, than: str | None = None
-    ) -> Difference:
+    def change(self, law: str, of: ErrorOf, failure: str | int = ANY, *, than: str | None = None) -> Difference:
         """Mean change of an error at the end of the same motions under a law and under another, with its 95 % interval.
 
         Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
@@ -265,7 +271,7 @@ class LawComparison(Result):
 
         Args:
             law: Its name.
-            of: Which error of :class:`holdfast.convergence.Case`, m and rad.
+            of: Which error of :class:`holdfast.convergence.Case`, m or rad.
             failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
             than: The other law; the first if not given.
 
@@ -305,11 +311,13 @@ class LawComparison(Result):
 
         ``law, failure, motions, converged`` and its 95 % interval ``converged_low, converged_high``; the same of ``stuck``,
         ``moving`` and ``undecided``; ``reachable`` (share of targets still within reach) and ``converged_reachable`` among
-        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``error_*`` and ``excess_*``
-        (quantiles of the end error and of what it exceeds the least by), ``astray`` (median end error of the runs that did not
-        converge), ``closest``, ``path_ratio`` and ``excursion`` (medians), and ``past_limits`` (share of runs with a joint
-        beyond a limit). m and rad. Where somebody looked, also ``touched`` (share of runs that touch something, with its
-        interval) and ``converged_clear`` (converged, and touched nothing on the way).
+        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``position_error_m_*`` and
+        ``angle_error_rad_*`` (quantiles at the end, as far as the task prescribes them), ``position_error_m_astray`` and
+        ``angle_error_rad_astray`` (medians of the runs that did not converge), ``path_ratio`` and ``excursion`` (medians), and
+        ``past_limits`` (share of runs with a joint beyond a limit). Of a task in one unit also ``excess_*`` (quantiles of the
+        end error above the least) and ``closest`` (median of the least error on the way), m or rad. Where somebody looked,
+        also ``touched`` (share of runs that touch something, with its interval) and ``converged_clear`` (converged, and
+        touched nothing on the way).
         """
         return [self._row(self.case(name, failure)) for name in self.names for failure in self.failures]
 
@@ -321,11 +329,14 @@ class LawComparison(Result):
         row["reachable"] = float(c.reachable.mean())
         row |= _ends("converged_reachable", c.share(among_reachable=True))
         row["converged_within_limits"] = float((c.ended("converged") & ~c.past_limits).mean())
-        for what, values in (("error", c.error), ("excess", c.excess)):
+        kinds = error_kinds(self.laws[0])
+        one = len(kinds) == 1
+        for what, values in [*((kind.key, getattr(c, kind.name)) for kind in kinds), *[("excess", c.excess)] * one]:
             for level in LEVELS:
                 row[f"{what}_{round(100 * level):02d}"] = _quantile(values, level)
-        row["astray"] = _quantile(c.error[~c.ended("converged")], 0.5)
-        for what in ("closest", "path_ratio", "excursion"):
+        for kind in kinds:
+            row[f"{kind.key}_astray"] = _quantile(getattr(c, kind.name)[~c.ended("converged")], 0.5)
+        for what in (*["closest"] * one, "path_ratio", "excursion"):
             row[what] = _quantile(getattr(c, what), 0.5)
         row["past_limits"] = float(c.past_limits.mean())
         if c.contacts is not None:

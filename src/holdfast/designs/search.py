@@ -25,6 +25,7 @@ from holdfast.designs.space import DesignSpace, Vary, design_space
 from holdfast.engine.memory import Memory, Parts
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec
+from holdfast.indices.own_file import plan_entries
 from holdfast.notice import says
 from holdfast.regions.region import Region, default_region
 
@@ -109,7 +110,7 @@ def design(
         "kind": "design",
         "arm": to_dict(arm),
         "vary": [p.written for p in space.parameters],
-        "index": family.index.label,
+        **plan_entries(family.index),
         "task": [family.task.rows.tolist(), family.task.frame, family.task.length],
         "failures": [list(f) for f in family.index.failures],
         "region": region.to_dict(),

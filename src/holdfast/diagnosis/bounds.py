@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,9 +17,9 @@ from holdfast.diagnosis.plausibility import prepare_log, require_explained, requ
 from holdfast.diagnosis.signals import LIMITS, signals_of
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
-from holdfast.files import reading
-from holdfast.files.digest import check_seal, is_sealed, seal_document
+from holdfast.files.digest import seal_document
 from holdfast.files.output import replaced
+from holdfast.files.sealed import read_sealed
 from holdfast.notice import each, says
 from holdfast.result import Result
 
@@ -189,13 +188,9 @@ def load(file: str | Path) -> Bounds:
     Raises:
         InputError: Unreadable, or no such file.
     """
-    with reading.guarded(f"bounds '{file}'", "give the file that calibrate wrote"):
-        text = reading.raw(file).decode("utf-8", "replace")
     try:
-        if is_sealed(text):
-            check_seal(text)
-        data = json.loads(text)
-        if data.pop("format") != (_FORMAT if data.pop("digest", None) else _UNSEALED_FORMAT):
+        data = read_sealed(file, _FORMAT)
+        if data.pop("format") not in (_FORMAT, _UNSEALED_FORMAT):
             raise ValueError
         if "scales" not in data:  # files of earlier versions
             data["scales"] = [1.0] * len(data["joints"])
@@ -210,6 +205,10 @@ def load(file: str | Path) -> Bounds:
         bounds = Bounds(**{**data, "joints": tuple(map(str, data["joints"]))})
         bounds.require_sound()
         return bounds
+    except OSError as error:
+        raise InputError(
+            f"bounds '{file}' cannot be read ({error.strerror or error}); give the file that calibrate wrote"
+        ) from error
     except InputError as error:
         raise InputError(f"bounds '{file}': {error}; make the file again with holdfast calibrate") from error
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:

@@ -44,10 +44,16 @@ def prepare_log(arm: Arm, log: Log) -> Log:
     Angles that were cut off at a half turn are joined again: no joint turns by 360 degrees between two samples.
 
     Raises:
-        InputError: A log of another arm, in other units, or with joints of opposite signs; the message names a joint.
+        InputError: A log of another arm, in other units, without a number of a joint, or with joints of opposite signs; the
+            message names a joint.
     """
+    log = _join_angles(arm, log) if log.n == arm.n else log
     log.require(arm)
-    log = _join_angles(arm, log)
+    for what in ("q_ref", "q", "tau"):
+        value = getattr(log, what)
+        if value is not None and (empty := np.flatnonzero(~np.isfinite(value).any(axis=0))).size:
+            advice = "; leave tau out if it was not recorded" if what == "tau" else ""
+            raise InputError(f"{what} of '{arm.joint_names[empty[0]]}' has no number; give it for every joint{advice}")
     for name, wanted, measured in zip(arm.joint_names, log.q_ref.T, log.q.T, strict=True):
         ratio, correlation = _compare(wanted, measured)
         for known, advice in _KNOWN_RATIOS.items():
@@ -66,7 +72,7 @@ def require_following(arm: Arm, logs: Sequence[Log]) -> None:
         moving = [k for k in range(arm.n) if np.ptp(log.q_ref[np.isfinite(log.q_ref[:, k]), k]) > _LEAST_TRAVEL]
         for k in moving:
             name, measured = arm.joint_names[k], log.q[:, k]
-            if abs(_compare(log.q_ref[:, k], measured)[1]) < _FOLLOWING_CORRELATION:
+            if _compare(log.q_ref[:, k], measured)[1] < _FOLLOWING_CORRELATION:
                 others = [j for j in moving if j != k and _compare(log.q_ref[:, j], measured)[1] > _CROSS_CORRELATION]
                 advice = (
                     f"it follows that of '{arm.joint_names[others[0]]}', so give the joints in the arm's order"
@@ -165,17 +171,24 @@ def _compare(wanted: Array, measured: Array) -> tuple[float, float]:
 
 
 def _join_angles(arm: Arm, log: Log) -> Log:
-    """Return the log with angles that do not leap by whole turns, ``q`` on the turn of ``q_ref``."""
+    """Return the log with angles that do not leap by whole turns, ``q_ref`` within the limits and ``q`` on its turn."""
     wanted, measured = log.q_ref.copy(), log.q.copy()
-    for k in np.flatnonzero(~arm.prismatic):
+    for k in np.flatnonzero(~arm.prismatic).tolist():
         for column in (wanted[:, k], measured[:, k]):
             there = np.flatnonzero(np.isfinite(column))
             column[there] -= _TURN * np.cumsum(_whole_turns(np.diff(column[there], prepend=column[there[:1]])))
+        wanted[:, k] += _TURN * _turns_to_limits(arm, k, wanted[:, k])
         both = np.flatnonzero(np.isfinite(wanted[:, k]) & np.isfinite(measured[:, k]))[:1]
         if both.size:
             measured[:, k] -= _TURN * _whole_turns(measured[both, k] - wanted[both, k])[0]
     same = np.array_equal(wanted, log.q_ref, equal_nan=True) and np.array_equal(measured, log.q, equal_nan=True)
     return log if same else replace(log, q_ref=wanted, q=measured)
+
+
+def _turns_to_limits(arm: Arm, k: int, angles: Array) -> int:
+    """Return the whole turns that bring angles within the limits of joint k; 0 if none does or they are there already."""
+    low, high = np.fmin.reduce(angles), np.fmax.reduce(angles)
+    return next((t for t in (0, 1, -1) if arm.lower[k] <= low + t * _TURN and high + t * _TURN <= arm.upper[k]), 0)
 
 
 def _whole_turns(steps: Array) -> Array:

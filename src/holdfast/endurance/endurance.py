@@ -340,6 +340,8 @@ class Endurance(Result):
                 f"no motion survives more than {percent(self.found.bound)} up to the grid of {len(self.time)} poses and "
                 f"{self.found.spacing:g} rad; over its nodes {within}, with the spacing on top of them {percent(high)}"
             )
+        if self.kept is not None and self.kind != "lower bound":
+            lines.append("clearance is judged by shapes that cover the links; the arm is smaller and may survive more")
         if self.keep:
             alone = "" if self._problem.conditions.left else ", by the rows of the path alone"
             lines.append(f"kept at every sample, before a lock and after it{alone}: {'; '.join(map(str, self.keep))}")

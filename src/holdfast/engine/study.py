@@ -151,7 +151,7 @@ class Study(Result):
             for what in ("rows", "chunk"):
                 if mine[name][what] != new[name][what]:
                     return f"cell '{name}' has {what} {mine[name][what]}, asked for is {new[name][what]}"
-        return next(f"cell '{n}' has other settings" for n in mine if mine[n] != new[n])
+        return next(f"cell '{n}' has other settings, or a file that it reads has changed" for n in mine if mine[n] != new[n])
 
     # ---- what is there ---------------------------------------------------------------------------------------------
 

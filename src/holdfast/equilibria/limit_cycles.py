@@ -20,6 +20,7 @@ from holdfast.equilibria.system import RestSystem, wrapped
 from holdfast.errors import InputError
 from holdfast.result import Result
 from holdfast.simulation.runs import Outcome
+from holdfast.simulation.system import tool_errors
 
 if TYPE_CHECKING:
     from holdfast.simulation.runs import Runs
@@ -45,7 +46,9 @@ class Orbit(Result):
         multipliers: Floquet multipliers, without the 1 along the orbit; empty where there is no period.
         rates: (n,) mean rates, rad/s (or m/s).
         q: (n,) a configuration of the orbit.
-        error: Least and greatest norm of the task's error, m and rad.
+        position_error: Least and greatest distance of the tool point from the target in the directions of the task, m.
+        angle_error: Least and greatest angle of the end effector from the target in the directions of the task, rad.
+        largest_times: Times after ``q`` at which the distance and the angle are greatest, s.
     """
 
     label: str
@@ -55,7 +58,9 @@ class Orbit(Result):
     multipliers: NDArray[np.complex128]
     rates: Array
     q: Array
-    error: tuple[float, float]
+    position_error: tuple[float, float]
+    angle_error: tuple[float, float]
+    largest_times: tuple[float, float]
 
     @property
     def stable(self) -> bool:
@@ -165,7 +170,9 @@ class _Shooting:
         values = np.linalg.eigvals(matrix).astype(np.complex128) if matrix.size else np.empty(0, dtype=np.complex128)
         if values.size:
             values = np.delete(values, np.argmin(np.abs(values - 1)))
-        _, error, _ = system.linear.rates(path, system.pose)
+        _, norm, _ = system.linear.rates(path, system.pose)
+        errors = tool_errors(system.law, path, norm, system.pose)
+        step = (period if window is None else window) / gain / (len(path) - 1)
         return Orbit(
             label=label,
             period=period / gain,
@@ -174,5 +181,7 @@ class _Shooting:
             multipliers=values,
             rates=travelled / (period if closed else window) * gain,
             q=path[0],
-            error=(float(error.min()), float(error.max())),
+            position_error=(float(errors[0].min()), float(errors[0].max())),
+            angle_error=(float(errors[1].min()), float(errors[1].max())),
+            largest_times=(step * int(errors[0].argmax()), step * int(errors[1].argmax())),
         )

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds, attracts, kinds
 from holdfast.equilibria.system import RestSystem, distinct, idle_joints, wrapped
 from holdfast.notice import Progress, told
 from holdfast.result import Result
+from holdfast.simulation.system import tool_errors
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -69,6 +71,20 @@ class StationaryPoints(Result):
     def kinds(self) -> list[str]:
         """``solution``, ``sink``, ``saddle``, ``source`` or ``degenerate`` of each point."""
         return [Kind(k).word for k in self.kind]
+
+    @property
+    def position_error(self) -> Array:
+        """(P,) distance of the tool point from the target in the directions of the task, m."""
+        return self._tool_errors[0]
+
+    @property
+    def angle_error(self) -> Array:
+        """(P,) angle of the end effector from the target in the directions of the task, rad."""
+        return self._tool_errors[1]
+
+    @cached_property
+    def _tool_errors(self) -> tuple[Array, Array]:
+        return tool_errors(self.law, self.q, self.error, self.target)
 
     @property
     def attracting(self) -> Flags:

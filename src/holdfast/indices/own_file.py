@@ -6,16 +6,17 @@ import ast
 import hashlib
 import importlib.util
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.errors import InputError
+from holdfast.errors import InputError, StoreError
 from holdfast.failures import FailureSpec
 from holdfast.indices.formula import CustomIndex, Formula
+from holdfast.indices.index import Index
 
 
 class FileIndex(CustomIndex):
@@ -70,7 +71,27 @@ def load_index(
     return FileIndex(function, formula, digest, arm, task, failures=failures, length=length)
 
 
+def plan_entries(index: Index) -> dict[str, str]:
+    """Return the entries of a stored plan that define an index: its label, and the digest of a function from a file."""
+    return {"index": index.label} | ({"index_digest": index.digest} if isinstance(index, FileIndex) else {})
+
+
+def check_digest(index: Index, plan: Mapping[str, Any]) -> None:
+    """Compare the function of an index with that of a stored plan.
+
+    Raises:
+        StoreError: The function is another one.
+    """
+    if isinstance(index, FileIndex) and index.digest != plan["index_digest"]:
+        raise StoreError(
+            f"the function of index '{index.label}' has changed since these results were computed; restore it, or compute "
+            "into a new folder"
+        )
+
+
 def _find(module: str, label: str) -> Path:
+    if module.endswith(".py"):
+        raise InputError(f"index '{label}' is written with the module, without .py: {label.replace('.py:', ':', 1)}")
     local = Path.cwd() / (module.replace(".", "/") + ".py")
     if local.is_file():
         return local

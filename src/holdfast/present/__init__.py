@@ -74,6 +74,7 @@ PRESENTERS = {
     "Trajectory": ("motion.console", "motion.trajectory"),
     "WaypointCheck": ("recovery.check", ""),
     "WhatIsLeft": ("recovery.left", "recovery.left"),
+    "WorkingRanges": ("reach.working_ranges", ""),
     "Workspace": ("convergence.origins", "convergence.origins"),
 }
 _WORDS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps", "story", "describe"}

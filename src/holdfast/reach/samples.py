@@ -18,7 +18,7 @@ from holdfast.solvers.inverse_kinematics import solver
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_TOLERANCE = 1e-6
+TOLERANCE = 1e-6
 _RESTARTS = 40  # for the healthy arm
 _RESTARTS_LOCKED = 20
 _SOLUTIONS = 48  # configurations per point that the search knows
@@ -85,7 +85,7 @@ def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:
     """(N,) poses of which a configuration was found."""
     if not len(poses):
         return np.zeros(0, dtype=bool)
-    return solver(arm, task).solve(poses, np.random.SeedSequence(seed), _RESTARTS, _TOLERANCE).success
+    return solver(arm, task).solve(poses, np.random.SeedSequence(seed), _RESTARTS, TOLERANCE).success
 
 
 def survival(arm: Arm, task: Task, poses: Array, angles: list[Array], seed: int) -> list[Bools]:
@@ -97,14 +97,14 @@ def survival(arm: Arm, task: Task, poses: Array, angles: list[Array], seed: int)
             made.append(np.zeros((len(poses), values.size), dtype=bool))
             continue
         found = engine.reaches_locked(
-            poses[rows], np.full(rows.size, k), columns, np.random.SeedSequence([seed, k]), _RESTARTS_LOCKED, _TOLERANCE
+            poses[rows], np.full(rows.size, k), columns, np.random.SeedSequence([seed, k]), _RESTARTS_LOCKED, TOLERANCE
         )
         made.append(found.reshape(len(poses), values.size))
     return made
 
 
 @dataclass
-class _Choices:
+class Choices:
     """The artificial limits of one joint that are tried: between values of a grid.
 
     Attributes:
@@ -118,7 +118,7 @@ class _Choices:
     holds: Bools
 
     @classmethod
-    def of(cls, grid: Array, circle: bool, table: Bools, q: Array) -> _Choices:
+    def of(cls, grid: Array, circle: bool, table: Bools, q: Array) -> Choices:
         """For a grid (K,) of joint values, the reached ones (H, K), and configurations q (H, S); NaN is within none."""
         size, step = grid.size, grid[1] - grid[0]
         if circle:
@@ -150,15 +150,21 @@ def best_limits(arm: Arm, task: Task, space: Space, points: int, count: int, see
     circle = joint_space.turning(arm)
     grids = [np.linspace(a, b, count + c)[:count] for a, b, c in zip(low, high, circle, strict=True)]
     table = survival(arm, task, poses, grids, seed)
-    q = _configurations(arm, task, poses, generator)
-    choices = [_Choices.of(g, bool(c), t, q[:, :, k]) for k, (g, c, t) in enumerate(zip(grids, circle, table, strict=True))]
-    best, most = [0] * arm.n, -1
+    q = configurations(arm, task, poses, generator)
+    choices = [Choices.of(g, bool(c), t, q[:, :, k]) for k, (g, c, t) in enumerate(zip(grids, circle, table, strict=True))]
+    found = most_held(choices, q, generator)
+    return np.stack([low, high], axis=1) if found is None else found
+
+
+def most_held(choices: list[Choices], q: Array, generator: np.random.Generator) -> Array | None:
+    """Limits (n, 2) that hold most points, of which q (H, S, n) are known, by coordinate ascent; None if none is known."""
+    best, most = list[int](), -1
     known = np.argwhere(~np.isnan(q[:, :, 0]))
-    for row, column in known[generator.integers(0, len(known), _ASCENTS)]:
+    for row, column in known[generator.integers(0, len(known), _ASCENTS)] if len(known) else known:
         chosen, gained = _ascend(choices, row, column, generator)
         if gained > most:
             best, most = chosen, gained
-    return np.array([c.limits[k] for c, k in zip(choices, best, strict=True)])
+    return np.array([c.limits[k] for c, k in zip(choices, best, strict=True)]) if best else None
 
 
 def _grid_range(arm: Arm) -> tuple[Array, Array]:
@@ -169,15 +175,15 @@ def _grid_range(arm: Arm) -> tuple[Array, Array]:
     return np.where(wide, middle - np.pi, low), np.where(wide, middle + np.pi, high)
 
 
-def _configurations(arm: Arm, task: Task, poses: Array, generator: np.random.Generator) -> Array:
+def configurations(arm: Arm, task: Task, poses: Array, generator: np.random.Generator) -> Array:
     """(H, S, n) configurations of each pose, NaN where a start did not converge."""
     engine = solver(arm, task)
     rows = np.repeat(np.arange(len(poses)), _SOLUTIONS)
-    q, ok = engine.attempt(engine.starts(rows.size, generator), poses[rows], _TOLERANCE)
+    q, ok = engine.attempt(engine.starts(rows.size, generator), poses[rows], TOLERANCE)
     return np.where(ok[:, None], q, np.nan).reshape(len(poses), _SOLUTIONS, arm.n)
 
 
-def _ascend(choices: list[_Choices], row: int, column: int, generator: np.random.Generator) -> tuple[list[int], int]:
+def _ascend(choices: list[Choices], row: int, column: int, generator: np.random.Generator) -> tuple[list[int], int]:
     """From narrow limits about one configuration: the choice of each joint, and how many points it holds."""
     chosen = []
     for c in choices:

@@ -55,7 +55,7 @@ class WhatIsLeft(Result):
         """One sentence for people."""
         if self.left is None:
             return [
-                f"The healthy arm reaches none of the {len(self.healthy):,} targets ({self.region}), so nothing can be left."
+                f"No configuration of the healthy arm was found for any of the {len(self.healthy):,} targets ({self.region})"
             ]
         return [
             f"Of {int(self.healthy.sum()):,} targets that the healthy arm reaches ({self.region}; {len(self.rows)} rows: "

@@ -338,8 +338,11 @@ class Motion:
         tool = self.law.arm.forward_kinematics(q)[:, :3, 3]
         return Path(time, q, tool, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked)
 
-    def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]:
-        """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k."""
+    def errors(self, runs: Runs, k: int | NDArray[np.bool_], q: Array) -> tuple[Array, Array]:
+        """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k.
+
+        Where k is a mask of runs, the configurations are one for each of them.
+        """
         target = np.broadcast_to(self._poses(runs)[k], (len(q), 4, 4))
         return split_errors(self.law, self._nearest.errors(q, target), self.law.arm.forward_kinematics(q), target)
 

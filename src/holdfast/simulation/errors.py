@@ -3,16 +3,61 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.control.law import Law
 from holdfast.simulation.runs import Outcome, Runs
+from holdfast.simulation.system import tool_errors
 
 Array = NDArray[np.float64]
 
 LATER = (1.0, 10.0, 60.0)  # s, or cycles, after the first lock
 _SAMPLES = 20_000  # of a run, about: more where its integrator took more steps
+
+
+class ErrorKind(NamedTuple):
+    """One of the two errors of the end effector, and its unit for people.
+
+    Attributes:
+        name: Attribute of the results that have it, in m or rad.
+        key: Name with the unit, for files.
+        text: Name for people.
+        unit: Unit for people.
+        factor: Number of units in 1 m or 1 rad.
+        whole: Part of the target from which the error is measured.
+    """
+
+    name: Literal["position_error", "angle_error"]
+    key: str
+    text: str
+    unit: str
+    factor: float
+    whole: str
+
+
+_DISTANCE = ErrorKind("position_error", "position_error_m", "distance from the target", "mm", 1000.0, "the target")
+_ANGLE = ErrorKind("angle_error", "angle_error_rad", "angle from the target", "degrees", 180 / np.pi, "its orientation")
+
+
+def error_kinds(law: Law) -> list[ErrorKind]:
+    """Return the errors that the task of a law prescribes: the distance, the angle, or both."""
+    return [_DISTANCE] * bool(law.task.rows[:, :3].any()) + [_ANGLE] * bool(law.task.angular)
+
+
+def shown_errors(law: Law, q: Array, error: Array, target: Array) -> list[Array]:
+    """Compute the errors of configurations (N, n) in mm and degrees: one array (N,) for each of :func:`error_kinds`.
+
+    Args:
+        law: The control law.
+        q: (N, n) rad and m.
+        error: (N,) norms over the task's rows, m and rad.
+        target: (4, 4) wanted tool pose.
+    """
+    both = dict(zip((_DISTANCE, _ANGLE), tool_errors(law, q, error, target), strict=True))
+    return [kind.factor * both[kind] for kind in error_kinds(law)]
 
 
 @dataclass(frozen=True)

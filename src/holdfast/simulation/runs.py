@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arguments import checked
+from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.result import Result
@@ -132,7 +133,7 @@ class _Motion(Protocol):
     """What computed the runs, as far as they ask it again."""
 
     def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]: ...
-    def errors(self, runs: Runs, k: int, q: Array) -> tuple[Array, Array]: ...
+    def errors(self, runs: Runs, k: int | Flags, q: Array) -> tuple[Array, Array]: ...
     def sampled(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path: ...
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path: ...
     def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs: ...
@@ -195,6 +196,24 @@ class Runs(Result):
     def outcome(self) -> NDArray[np.str_]:
         """(N,) ``converged``, ``stuck``, ``moving`` or ``undecided``."""
         return np.asarray(_NAMES[self.code])
+
+    @property
+    def position_error(self) -> Array:
+        """(N,) distance of the tool point from the target at the end in the directions of the task, m."""
+        return self._ends[0]
+
+    @property
+    def angle_error(self) -> Array:
+        """(N,) angle of the end effector from the target at the end in the directions of the task, rad."""
+        return self._ends[1]
+
+    @cached_property
+    def _ends(self) -> tuple[Array, Array]:
+        q = np.atleast_2d(self.q_final)
+        known = np.asarray(np.isfinite(q).all(axis=1))
+        found = np.full((2, len(q)), np.nan)
+        found[:, known] = self._motion.errors(self, known, q[known])
+        return (found[0], found[1]) if self.code.ndim else (found[0, 0], found[1, 0])
 
     @property
     def held_from(self) -> Array:

@@ -139,6 +139,11 @@ def split_errors(law: Law, error: Array, tool: Array, target: Array) -> tuple[Ar
     return linear, np.sqrt(np.maximum(error**2 - linear**2, 0.0))
 
 
+def tool_errors(law: Law, q: Array, error: Array, target: Array) -> tuple[Array, Array]:
+    """Compute position errors (N,), m, and angle errors (N,), rad, as :func:`split_errors`, at q (N, n) for a target or N."""
+    return split_errors(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
+
+
 def own_units(law: Law, error: Array, hand: Array, target: Array) -> Array:
     """Norms of errors (N,), m and rad, with lengths in units of the arm's own; places and targets as they have them."""
     linear, angular = split_errors(law, error, hand, target)

@@ -292,6 +292,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     from holdfast.designs.search import region_poses
     from holdfast.designs.space import DesignSpace, parse_vary
     from holdfast.failures import read_failures
+    from holdfast.indices.own_file import plan_entries
     from holdfast.regions.region import Region, default_region
     from holdfast.studies.jobs.designs import DesignJob
 
@@ -308,7 +309,6 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     spec, arm, label = _arm(whole, folder)
     texts = [f"{name}={bounds}" for name, bounds in given.vary.items()]
     space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))
-    poses = block.poses or model.poses
     for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
         rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
         measure = _index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
@@ -324,11 +324,11 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
             "fingerprint": arm.fingerprint,
             "vary": [[p.name, p.lower, p.upper, p.unit] for p in space.parameters],
             "region": place.to_dict(),
-            "index": measure.label,
+            **plan_entries(measure),
             "task": t.to_dict(),
             "failures": [[arm.joint_names[k] for k in f] for f in measure.failures],
             "level": given.level,
-            "poses": poses,
+            "poses": block.poses or model.poses,
             "seed": model.seed,
         }
         labels = {"job": "designs", "arm": label, "index": index, "task": t.name, "region": place.name, "failures": failures}

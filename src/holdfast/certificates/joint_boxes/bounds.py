@@ -51,9 +51,12 @@ class ManipulabilityBound(Halved):
         at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.extreme))
         occurs = f"{self.value:.6f} occurs, at ({at}) deg"
         if self.refuted:
-            return [self.document["claim"], f"Refuted by a witness: {occurs}."]
+            return [
+                verifier.qualify_claim(self.document["claim"], self.proved, refuted=True),
+                f"Refuted by a witness: {occurs}.",
+            ]
         return [
-            documents.qualify_claim(self.document["claim"], self.proved),
+            verifier.qualify_claim(self.document["claim"], self.proved),
             f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)} of the box, undecided "
             f"{verifier.per_cent(self.undecided, up=True)}{early(self.finished)}; {occurs}.",
             f"{self.leaves:,} boxes are proved, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",

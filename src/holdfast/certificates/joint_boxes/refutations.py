@@ -38,9 +38,12 @@ class Refutation(Halved):
         """A few sentences for people."""
         if self.witness is not None:
             at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.witness))
-            return [self.document["claim"], f"Refuted by a witness: at ({at}) deg the tool is in the box."]
+            return [
+                verifier.qualify_claim(self.document["claim"], self.proved, refuted=True),
+                f"Refuted by a witness: at ({at}) deg the tool is in the box.",
+            ]
         return [
-            documents.qualify_claim(self.document["claim"], self.proved),
+            verifier.qualify_claim(self.document["claim"], self.proved),
             f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)} of all pairs of target and "
             f"configuration, undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
             f"{self.leaves:,} boxes are told apart, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",

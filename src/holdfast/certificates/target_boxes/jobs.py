@@ -43,7 +43,7 @@ class Found:
         cut: Axes along which the box is to be halved one after the other, each half another job: nothing was looked for.
         cells: That it would take, estimated.
         advice: What is said of that where they are too many.
-        nowhere: Why nothing can be proved: no configuration of any target is found; or empty.
+        nowhere: Why the search does not begin: no configuration of any sampled target is found; or empty.
     """
 
     tree: bytes
@@ -212,13 +212,13 @@ class Running:
         return Found(tree, rows, self._search.nodes, self.finished, self._seconds, self._cut, self._cells, *said)
 
     def _beforehand(self) -> tuple[str, str]:
-        """Why nothing can be proved, and that much cannot, by the targets of the whole that were drawn first."""
+        """Say of how many targets that were drawn first no configuration was found: of all (no search), and of many."""
         claim, (drawn, lost) = self.job.claim, (self._search.pool.drawn, self._search.pool.lost)
         if self.job.cut or not drawn or lost < _MANY * drawn:
             return "", ""
         who = f"with {claim.arm.joint_names[claim.locked]} locked, " if claim.locked >= 0 else ""
         if lost == drawn:
             one = not (claim.box[:, 1] > claim.box[:, 0]).any()
-            what = "this target" if one else f"any of {drawn} targets of the box"
-            return f"{who}no configuration is found for {what}: nothing can be proved; see certify out-of-reach", ""
+            what = "this target" if one else f"any of {drawn} sampled targets of the box"
+            return f"{who}no configuration was found for {what}; try to prove the opposite with certify out-of-reach", ""
         return "", f"{who}no configuration was found for {lost} of {drawn} sampled targets"

@@ -80,7 +80,7 @@ class PathProof(InParts):
         shares += f"undecided {verifier.per_cent(worst.undecided, up=True)}"
         least = "" if self.ok else f" with a lock of {self.claim.arm.joint_names[worst.joint]}, of which least is proved"
         return [
-            documents.qualify_claim(self.document["claim"], worst.proved),
+            verifier.qualify_claim(self.document["claim"], self.tolerant),
             f"Found by the prover, not yet verified: of the lock instants {shares}{least}{whichever}{early(self.finished)}.",
             f"{self.leaves:,} cells, each glued to the next or with no configuration in it, of {self.nodes:,} that were looked "
             f"at; {self.seconds:.1f} s.",

@@ -91,6 +91,12 @@ def length(x: Array, axis: int = 1) -> Array:
     return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
 
 
+def solve_regular(a: Array, b: Array) -> Array:
+    """Solve linear systems (N, k, k) approximately; the solution of a singular system is NaN, which proves nothing."""
+    regular = abs(np.linalg.slogdet(a)[0])[:, None, None] > 0
+    return np.where(regular, np.linalg.solve(np.where(regular, a, np.eye(a.shape[-1])), b), np.nan)
+
+
 def joined(axis: int, *parts: Balls) -> Balls:
     """One after the other, along an axis."""
     return Balls(np.concatenate([x.at for x in parts], axis), np.concatenate([x.off for x in parts], axis))

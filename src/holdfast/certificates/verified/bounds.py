@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from .balls import LEAST, UP, Array, Balls, Flags, above, crossed, flint, joined, length, stacked, times
+from .balls import LEAST, UP, Array, Balls, Flags, above, crossed, flint, joined, length, solve_regular, stacked, times
 from .chain import Boxes, Chain, Leaf, configuration
 from .forms import need, real, unpacked
 from .taylor import Form
@@ -107,10 +107,10 @@ class Wrenches(Boxes):
         own, others = x.screw.at[:, k], np.delete(x.screw.at, k, axis=1)
         counts = (x.half * x.moves.any(axis=0)).max(axis=1)
         gram = np.einsum("nla,nlb->nab", others, others) + (0.01 * counts**2 + 1e-30)[:, None, None] * np.eye(6)
-        y = np.linalg.solve(gram, own[:, :, None])[:, :, 0]
+        y = solve_regular(gram, own[:, :, None])[:, :, 0]
         y = y / (y * own).sum(axis=1)[:, None]
         slopes = np.einsum("njla,na->nlj", x.bracket.at, y) * x.side
-        turn = -np.linalg.solve(gram, np.einsum("nla,nlj->naj", others, np.delete(slopes, k, axis=1)))
+        turn = -solve_regular(gram, np.einsum("nla,nlj->naj", others, np.delete(slopes, k, axis=1)))
         turn = turn - y[:, :, None] * (np.einsum("na,naj->nj", own, turn) + slopes[:, k])[:, None]
         return np.nan_to_num(y), np.nan_to_num(turn)
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from .balls import UP, Array, Balls, Flags, crossed, flint, length, times
+from .balls import UP, Array, Balls, Flags, crossed, flint, length, solve_regular, times
 from .chain import Boxes, Chain, Leaf, configuration, turned
 from .forms import need, real, unpacked
 from .motions import Motion
@@ -36,7 +36,7 @@ def nearest(form: Form, linear: int, rest: tuple[Any, Any], half: Array) -> Arra
     """
     value, swept, one = form.value.at, form.slopes.at * half[:, None], np.eye(form.value.at.shape[1])
     spread = swept @ swept.transpose(0, 2, 1) + (1e-6 * (value**2).sum(axis=1) + 1e-30)[:, None, None] * one
-    steep = np.linalg.solve(np.nan_to_num(spread) + 1e-30 * one, value[:, :, None])[:, :, 0]
+    steep = solve_regular(np.nan_to_num(spread) + 1e-30 * one, value[:, :, None])[:, :, 0]
     best, first = np.full(len(value), -np.inf), np.arange(len(one)) < linear
     for along in (value, steep, *([value * first, value * ~first] if linear < len(one) else [])):
         e = along / np.sqrt((along**2).sum(axis=1))[:, None] * (1 - 1e-12)

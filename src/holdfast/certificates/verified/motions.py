@@ -26,7 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from .balls import LEAST, UP, Array, Balls, Flags, either, flint, joined, times
+from .balls import LEAST, UP, Array, Balls, Flags, either, flint, joined, solve_regular, times
 from .chain import Chain, exactly, turned
 from .forms import TASKS, real
 from .paths import SEGMENT, UNIT, Ints, Slab
@@ -116,7 +116,8 @@ class Faults(Motion):
             by = every[:, :, last]
             c, own = np.cumsum(way * ~chain.slides, axis=1) * UP, np.cumsum(by * ~chain.slides[:, None], axis=1) * UP
             slid = way * chain.slides
-            most = (chain.whole + abs(out) * chain.slides + slid) * c**2 + 2 * c * slid
+            # What a slide goes out by, d, counts first order already: its slope by a turn changes by d c, whatever c is.
+            most = (chain.whole + abs(out) * chain.slides) * c**2 + 2 * c * slid
             third = np.einsum("nk,nkb->nb", most, own) + np.einsum("nk,nkb->nb", c**2, by * chain.slides[:, None])
             slope[:, : error.linear] += third[:, None] / 2
             turned += own[:, -1]
@@ -136,7 +137,7 @@ class Faults(Motion):
         """
         slope = self.slopes(cells, cells.w)
         b, inner = slope[:, :, 0], slope[:, :, 1:]
-        u = np.linalg.solve(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
+        u = solve_regular(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
         found = (u >= 0).all(axis=1) & ((b + np.einsum("nab,nb->na", inner, u) * UP) * UP + LEAST <= u).all(axis=1)
         slower = np.einsum("nb,nb->n", abs(own.at[:, -1, -self.m :]), u) * UP
         off = np.einsum("nc,nc->n", abs(own.at[:, -1]), cells.w) * UP
@@ -195,8 +196,7 @@ class Faults(Motion):
         spread = either(first, begun, before[:, :, kept] + -own[:, :, kept])
         found = either(first, Balls(np.zeros((*own.at.shape[:2], m))), before[:, :, -m:])
         matrix = own[:, :, [1, *range(-m, 0)]]
-        good = abs(np.linalg.det(matrix.at)) > 0
-        inverse = Balls(np.linalg.inv(np.where(good[:, None, None], matrix.at, np.eye(m + 1))))
+        inverse = Balls(solve_regular(matrix.at, np.eye(m + 1)[None]))
         off = (times("nab,nbc->nac", inverse, matrix) + -np.eye(m + 1)).size
         # Between cells that are not turned this is on a face, exactly, and the diagonal where motions begin is in the cell.
         face = ~turned & (first | ~np.roll(turned, 1))

@@ -71,6 +71,14 @@ def _target(document: dict[str, Any], names: list[str]) -> str:
     return f"{text}; lengths in m, angles in rad, base frame,"
 
 
+def qualify_claim(claim: str, proved: Fraction, *, refuted: bool = False, sampled: bool = False) -> str:
+    """Return a claim as it may be printed: with the proved fraction in front, unless every cell of all of it is verified."""
+    if refuted or sampled:
+        return f"{'False' if refuted else 'Sampled, not verified'}: {claim}"
+    only = f"Proved for only {per_cent(proved)} of this claim: " if proved else "Not proved: "
+    return claim if proved == 1 else only + claim
+
+
 def per_cent(part: Fraction, up: bool = False) -> str:
     """A share in per cent, rounded down, or up: what is proved is never said to be more, what is undecided never less."""
     if part in (0, 1):

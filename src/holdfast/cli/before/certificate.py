@@ -15,7 +15,7 @@ from holdfast.cli.options import JsonOption
 from holdfast.errors import InputError
 from holdfast.present.results import printed
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate.")]
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate, or the folder that holds it.")]
 
 command = typer.Typer(
     name="certificate",
@@ -60,13 +60,16 @@ def show(file: FileArgument) -> None:
     Example: holdfast certificate show reach.certificate
     """
     from holdfast.certificates import verifier
+    from holdfast.certificates.checks import find_in_folder
 
     try:
-        document = verifier.load(file)
+        document = verifier.load(find_in_folder(file))
     except verifier.Refused as error:
         raise InputError(str(error)) from error
     volumes, arm = {key: _share(part) for key, part in document["volumes"].items()}, document["source"]["name"]
-    typer.echo(document["claim"])
+    of = "this claim in its worst part" if document["kind"] in ("bundle", "path") else "this claim"
+    only = f", proved for only {verifier.per_cent(volumes['proved'])} of {of}" if 0 < volumes["proved"] < 1 else ""
+    typer.echo(f"Not verified{only}: {document['claim']}")
     typer.echo(
         f"A {document['kind']} of {arm}, whose file has {len(document['arm']['joints'])} joints; digest {document['digest']}."
     )

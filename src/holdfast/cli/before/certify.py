@@ -25,7 +25,7 @@ from holdfast.cli.certify_options import (
     Written,
     intervals,
 )
-from holdfast.cli.certify_search import proved
+from holdfast.cli.certify_search import prove_with_found_ranges, proved
 from holdfast.cli.groups import Chain
 from holdfast.cli.options import NOT_MET, ArmArgument, FailuresOption, JsonOption, SeedOption
 from holdfast.errors import InputError
@@ -113,6 +113,9 @@ def tolerant(
         list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits."
     ] = None,
     degrees: AnglesOption = False,
+    find_ranges: Annotated[
+        bool, "Find wide working ranges by samples, within those that are given, and prove the claim with them."
+    ] = False,
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
     search: Search = Search(),
@@ -122,20 +125,21 @@ def tolerant(
 ) -> None:
     """Prove that every target in a box stays reachable after any single lock.
 
-    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far; with --store the same command resumes.
+    The exit code is 0 if all is proved, 3 if something is undecided or no ranges are found, 1 if the check rejects something.
+    Ctrl-C writes what is proved so far; with --store the same command resumes.
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
     model = chain.arm(arm)
     texts = [*(_ranges_of(ranges) if ranges is not None else []), *(range_ or [])]
-    claim = hf.certificates.tolerant_claim(
-        model,
-        **targets.read(),
-        working_ranges=intervals(model, "--range", texts, degrees),
-        failures=read_failures(model, failures),
-    )
-    proved(claim, search, written, halvings=halvings, seed=seed)
+    asked = targets.read() | {
+        "working_ranges": intervals(model, "--range", texts, degrees),
+        "failures": read_failures(model, failures),
+    }
+    if find_ranges:
+        prove_with_found_ranges(model, asked, search, written, halvings=halvings, seed=seed)
+    else:
+        proved(hf.certificates.tolerant_claim(model, **asked), search, written, halvings=halvings, seed=seed)
 
 
 @command.command()
@@ -215,7 +219,11 @@ def structural_zero(
 
     Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
     """
+    from holdfast.certificates.checks import need_flint
+
     model = chain.arm(arm)
+    if check:
+        need_flint()
     proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
     if not proof.ok:
         printed(proof, json_)

@@ -11,7 +11,7 @@ from holdfast.cli.groups import CellOption, Chain, MeshesOption
 from holdfast.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
 from holdfast.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 from holdfast.errors import InputError
-from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
+from holdfast.registry import INDICES, LAWS, OWN_INDEX, SUSCEPTIBILITIES, unknown
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -29,9 +29,9 @@ def command(
     task: TaskOption = None,
     lock: Annotated[list[str] | None, "A joint that is locked. May be given again."] = None,
     free: Annotated[list[str] | None, "A joint that swings freely. May be given again."] = None,
-    index: Annotated[str, "Index shown by the bars."] = "relative-manipulability",
+    index: Annotated[str, f"Index shown by the bars: a built-in one, {OWN_INDEX}."] = "relative-manipulability",
     susceptibility: Annotated[str, f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}."] = ("torque"),
-    objective: Annotated[str, "Index or susceptibility by which best and worst are found."] = "relative-manipulability",
+    objective: Annotated[str, f"Index or susceptibility for best and worst, {OWN_INDEX}."] = "relative-manipulability",
     law: Annotated[
         list[str] | None, f"Two laws side by side: {LAWS.usage}. Give it twice.", "pseudoinverse and failure-tolerant"
     ] = None,
@@ -73,9 +73,9 @@ def command(
     INDICES.read(index, "--index")
     SUSCEPTIBILITIES.read(susceptibility, "--susceptibility")
     name = objective.partition(":")[0]
-    if name not in INDICES and name not in SUSCEPTIBILITIES:
+    if name not in SUSCEPTIBILITIES and not INDICES.covers(objective):
         raise InputError(f"--objective: {unknown('objective', name, INDICES, SUSCEPTIBILITIES)}")
-    (INDICES if name in INDICES else SUSCEPTIBILITIES).read(objective, "--objective")
+    (SUSCEPTIBILITIES if name in SUSCEPTIBILITIES else INDICES).read(objective, "--objective")
     if show is not None and show not in SHOWS:
         raise InputError(f"--show '{show}' is not known; use one of {', '.join(SHOWS)}")
     start = generic_configuration(model) if q is None else read_configuration(model, q, degrees)

@@ -305,7 +305,7 @@ def _out_of_reach(found: Refutation) -> Story:
     return Story(
         f"What {claim.arm.name}{lock} cannot reach",
         f"{answer} {UNVERIFIED}",
-        lines=[found.document["claim"]],
+        lines=found.describe()[:1],
         facts=facts,
         figures=_shown(found, others, of),
         tables=[] if found.refuted else [Leaves.of(found).hardest()],
@@ -352,7 +352,7 @@ def _bound(found: ManipulabilityBound) -> Story:
     return Story(
         f"A {claim.kind} of relative manipulability of {claim.arm.name}",
         f"{answer} {UNVERIFIED}",
-        lines=[found.document["claim"]],
+        lines=found.describe()[:1],
         facts=facts,
         figures={"bound": ("The bound, and what occurs", scale), **_shown(found, "all other joints")},
         tables=[] if found.refuted else [Leaves.of(found).hardest()],

@@ -107,7 +107,7 @@ def story(found: PathProof) -> Story:
     return Story(
         f"What {claim.arm.name} finishes after a lock",
         f"{answer} {UNVERIFIED}",
-        lines=[found.document["claim"]],
+        lines=found.describe()[:1],
         facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, glued or empty")],
         tables=[Rows(["lock of", "undecided between knots"], [[_name(found, p), _between(found, p)] for p in found.parts])],
         figures={

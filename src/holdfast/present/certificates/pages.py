@@ -22,6 +22,8 @@ from holdfast.present.story import Story
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from holdfast.reach import WorkingRanges
+
 UNVERIFIED = "Found by the prover, not yet verified."
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | PathProof
 
@@ -33,16 +35,19 @@ def write(
     drawn: Mapping[str, Figure] | None = None,
     check: CertificateCheck | None = None,
     file: str | Path = "FILE",
+    ranges: WorkingRanges | None = None,
 ) -> Path:
     """The page of a proof.
 
-    ``check``: What the verifier says of it, if it was asked; ``file``: where the certificate is.
+    ``check``: What the verifier says of it, if it was asked; ``file``: where the certificate is; ``ranges``: the working
+    ranges, if they were found by samples.
     """
     story: Story = found._presented("story")
     said = replace(
         story,
         answer=story.answer.replace(UNVERIFIED, _verified(found, check)),
-        tables=[by_part(found, check), *(story.tables or [])],
+        lines=[*(story.lines if check is None else check.describe()[:1]), *(ranges.describe() if ranges else [])],
+        tables=[by_part(found, check), *(story.tables or []), *(ranges._presented("tables") if ranges else [])],
         method=[*story.method, *_how(found, check, file)],
     )
     return results.write(found, path, command, drawn, said)

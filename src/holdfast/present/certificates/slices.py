@@ -100,7 +100,7 @@ def _slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], held: 
 def story(found: Proof | TolerantProof) -> Story:
     """How much is proved, and what that says and does not."""
     tolerant = isinstance(found, TolerantProof)
-    arm, document = found.claim.arm, found.document() if isinstance(found, TolerantProof) else found.document
+    arm = found.claim.arm
     locked = -1 if isinstance(found, TolerantProof) else found.claim.locked
     of = "targets" if locked < 0 else f"targets and locked angles of {arm.joint_names[locked]}"
     share = found.tolerant if isinstance(found, TolerantProof) else found.proved
@@ -116,7 +116,7 @@ def story(found: Proof | TolerantProof) -> Story:
     return Story(
         f"What is proved of {arm.name}",
         f"{answer} {UNVERIFIED}",
-        lines=[document["claim"]],
+        lines=found.describe()[:1],
         facts=[(kept(per_cent(share)), f"of the {of}{whatever}"), (f"{found.leaves:,}", "boxes, each with one configuration")],
         figures={
             "slices": (

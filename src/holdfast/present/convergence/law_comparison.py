@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,7 @@ from holdfast.present.clearance.shape import shape_text
 from holdfast.present.convergence.law_figures import error_figure, gains_figure, healthy_figure, outcome_figure
 from holdfast.present.convergence.law_rows import (
     OUTCOME_HEAD,
-    error_unit,
+    error_cell,
     gain_rows,
     headline,
     healthy_rows,
@@ -25,6 +26,7 @@ from holdfast.present.convergence.law_rows import (
     pairs,
     run_rows,
     signed,
+    signed_error,
     time_unit,
     touch_rows,
     within_reach,
@@ -33,8 +35,9 @@ from holdfast.present.story import how
 from holdfast.report import page
 from holdfast.report.figures import svg
 from holdfast.report.page import Block, Callout, Cell, Page, Picture, Section, Table, Text
+from holdfast.simulation.errors import error_kinds
 from holdfast.simulation.runs import Outcome
-from holdfast.words import counted, fixed, number, percent
+from holdfast.words import capitalised, counted, fixed, number, percent
 
 if TYPE_CHECKING:
     from holdfast.present.results import Drawings
@@ -169,6 +172,7 @@ def _outcomes(c: LawComparison) -> list[Block]:
 def _gains(c: LawComparison) -> list[Block]:
     if not pairs(c):
         return []
+    kinds = error_kinds(c.laws[0])
     rows: list[list[Cell]] = []
     for r in gain_rows(c):
         rows.append(
@@ -177,8 +181,7 @@ def _gains(c: LawComparison) -> list[Block]:
                 r["failure"],
                 signed(r, "gain", 100.0, 1),
                 f"{r['gain_p_value']:.2g}",
-                signed(r, "error", 1.0, 4),
-                signed(r, "excess", 1.0, 4),
+                *(signed_error(r, kind) for kind in kinds),
             ]
         )
     head = [
@@ -186,15 +189,14 @@ def _gains(c: LawComparison) -> list[Block]:
         "locked",
         "converge, percentage points",
         "p",
-        f"mean end error, {error_unit(c)}",
-        f"mean excess error, {error_unit(c)}",
+        *(f"mean {kind.text}, {kind.unit}" for kind in kinds),
     ]
     caption = (
         f"Differences to {c.names[0]} over the same motions, with 95 % intervals: paired by Newcombe's method with exact "
         "limits and McNemar's test for a joint; for any joint from the mean over the joints of each motion, by betting, "
         "which always covers. "
-        "Of errors by Student's t, which may cover less than 95 % of few motions when a few of them differ much. Excess: above "
-        "the least error that the failed arm could have. Undecided runs count as not converged. Many comparisons at once: one "
+        "Of errors by Student's t, which may cover less than 95 % of few motions when a few of them differ much. "
+        "Undecided runs count as not converged. Many comparisons at once: one "
         "in twenty looks significant by chance."
     )
     image = svg(gains_figure(c), "gains", "Paired differences to the first law, by joint")
@@ -207,23 +209,27 @@ def _gains(c: LawComparison) -> list[Block]:
 def _errors(c: LawComparison) -> list[Block]:
     if not c.joints:
         return []
+    kinds = error_kinds(c.laws[0])
     rows: list[list[Cell]] = []
     for r in c.table:
         if r["failure"] == HEALTHY:
             continue
-        cells = [r["error_50"], r["error_75"], r["error_95"], r["excess_95"], r["astray"], r["closest"]]
+        errors = [error_cell(r, kind, of, "–") for kind in kinds for of in ("50", "75", "95", "astray")]
         more = [r["path_ratio"], r["excursion"]]
-        rows.append([r["law"], r["failure"], *["–" if x is None else number(x) for x in (*cells, *more)]])
-    head = ["law", "locked", "end error: median", "75 %", "95 %", "excess: 95 %", "astray", "closest", "path", "joints"]
+        rows.append([r["law"], r["failure"], *errors, *["–" if x is None else number(x) for x in more]])
+    of_kinds = [[f"{capitalised(kind.text)}, {kind.unit}: median", "75 %", "95 %", "astray"] for kind in kinds]
+    head = ["law", "locked", *chain.from_iterable(of_kinds), "path", "joints"]
     caption = (
-        f"Quantiles over all runs, {error_unit(c)}. Astray: median end error of the runs that did not converge. Closest: "
-        "median of the least error on the way. Path: median of the tool's way by the straight one. Joints: median of the sum "
-        "of the ranges they went through, rad (and m)."
+        "Quantiles over all runs, at their ends. Astray: median of the runs that did not converge. Path: median of the tool's "
+        "path length divided by the straight distance. Joints: median of the sum of the ranges they went through, rad (and m)."
     )
     image = svg(error_figure(c), "errors", "Distribution of the end error by law")
     count = len(c) * len(c.joints)
     return [
-        Picture(image, f"{counted(count, 'run')} of each law, every joint alike. Below 1e-5 a run has converged."),
+        Picture(
+            image,
+            f"{counted(count, 'run')} of each law, every joint alike.",
+        ),
         Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True),
     ]
 

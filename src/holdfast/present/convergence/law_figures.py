@@ -6,10 +6,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.convergence.law_comparison import ANY, LawComparison
-from holdfast.present.convergence.law_rows import OUTCOMES, error_unit, time_unit
+from holdfast.present.convergence.law_rows import OUTCOMES, time_unit
 from holdfast.probability.intervals import Difference
 from holdfast.report.figures import Curve, compare_cdf_figure
 from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
+from holdfast.simulation.errors import error_kinds
+from holdfast.words import capitalised
 
 _COSTS = (
     ("deviation", "off the straight line, m", 1.0),
@@ -38,35 +40,43 @@ def gains_figure(c: LawComparison) -> Figure:
     """Paired differences to the first law, by joint."""
     cases = [*c.joints, ANY]
 
-    def of(name: str, differences: list[Difference]) -> Gains:
-        value, low, high = (np.array([getattr(d, x) for d in differences]) for x in ("value", "low", "high"))
+    def of(name: str, differences: list[Difference], factor: float = 1.0) -> Gains:
+        value, low, high = (factor * np.array([getattr(d, x) for d in differences]) for x in ("value", "low", "high"))
         return Gains(label=name, value=value, low=low, high=high)
 
     more = [of(name, [c.gain(name, j) for j in cases]) for name in c.names[1:]]
-    nearer = [of(name, [c.change(name, "error", j) for j in cases]) for name in c.names[1:]]
-    first = c.names[0]
+    nearer = [
+        (
+            f"{kind.name.partition('_')[0]} error, {kind.unit}",
+            [of(name, [c.change(name, kind.name, j) for j in cases], kind.factor) for name in c.names[1:]],
+        )
+        for kind in error_kinds(c.laws[0])
+    ]
     return gain_figure(
         cases,
-        [
-            (f"fraction that converges, minus that with {first}", more),
-            (f"mean end error minus that with {first}, {error_unit(c)}", nearer),
-        ],
+        [("fraction that converges", more), *nearer],
     )
 
 
 def error_figure(c: LawComparison) -> Figure:
-    """Cumulative distributions of the end error, and of what it exceeds the least by, over all joints."""
+    """Cumulative distributions of the errors at the end, in mm and degrees, over all joints; in one unit also their excess."""
+    kinds = error_kinds(c.laws[0])
+    shown: list[tuple[str, str, float]] = [
+        (kind.name, f"{capitalised(kind.text)} at the end, {kind.unit}", kind.factor) for kind in kinds
+    ]
+    if len(kinds) == 1:
+        shown.append(("excess", f"Error above the least possible, {kinds[0].unit}", kinds[0].factor))
     panels = []
-    every = {of: [c.pooled(name, of).ravel() for name in c.names] for of in ("error", "excess")}
-    top = max(float(np.nanmax(v, initial=1e-3)) for values in every.values() for v in values)
-    axis = np.geomspace(1e-5, 1.2 * top, 400)
-    for of, title in (("error", "Error at the end"), ("excess", "What it exceeds the least by")):
+    for of, title, factor in shown:
+        every = [factor * c.pooled(name, of).ravel() for name in c.names]
+        axis = np.geomspace(1e-5 * factor, 1.2 * max(float(np.nanmax(v, initial=1e-3 * factor)) for v in every), 400)
         curves = []
-        for name, values in zip(c.names, every[of], strict=True):
+        for name, values in zip(c.names, every, strict=True):
             finite = np.sort(values[np.isfinite(values)])
             curves.append(Curve(axis, np.searchsorted(finite, axis, side="right") / max(len(values), 1), name))
         panels.append((title, curves))
-    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", ylabel="fraction of runs with at most that", log=True)
+    unit = " or ".join(kind.unit for kind in kinds)
+    return compare_cdf_figure(panels, [], f"error, {unit}", ylabel="fraction of runs with at most that", log=True)
 
 
 def healthy_figure(c: LawComparison) -> Figure:

@@ -11,6 +11,7 @@ import numpy as np
 from holdfast.convergence.law_comparison import ANY, HEALTHY, LawComparison
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, print_rows
+from holdfast.simulation.errors import ErrorKind, error_kinds
 from holdfast.simulation.runs import Outcome
 from holdfast.words import fixed, percent
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 OUTCOMES = [o.name.lower() for o in Outcome]
-_OF_A_RUN = ("error", "excess", "closest", "path_length", "path_ratio", "excursion", "time")
+_OF_A_RUN = ("path_length", "path_ratio", "excursion", "time")
 OUTCOME_HEAD = ["law", "locked", "converged", "95 % interval", *OUTCOMES[1:], "within reach"]
 
 
@@ -57,19 +58,20 @@ def show(c: LawComparison, out: Console) -> None:
     """The headline and the tables."""
     from rich.markup import escape
 
-    size = error_unit(c)
+    kinds = error_kinds(c.laws[0])
     out.print(f"Arm {escape(c.arm.title)}, task {escape(c.laws[0].task.describe())}; {escape(c.about)}", soft_wrap=True)
     out.print(f"[bold]{escape(headline(c))}[/]", soft_wrap=True)
-    rows = [[*outcome_cells(r), "" if r["astray"] is None else number(r["astray"], 3)] for r in c.table]
-    print_rows(out, Rows([*OUTCOME_HEAD, "astray"], rows))
-    out.print(
-        f"astray: median end error, {size}, of the runs that do not converge; joint limits are not enforced", soft_wrap=True
-    )
+    rows = [[*outcome_cells(r), *(error_cell(r, kind, "astray", "") for kind in kinds)] for r in c.table]
+    print_rows(out, Rows([*OUTCOME_HEAD, *(f"astray, {kind.unit}" for kind in kinds)], rows))
+    names = " and ".join(kind.text for kind in kinds)
+    out.print(f"astray: median {names} of the runs that do not converge; joint limits are not enforced", soft_wrap=True)
     if pairs(c):
         rows = [
-            [r["law"], r["failure"], f"{signed(r, 'gain', 100.0, 1)} points", signed(r, "error", 1.0, 4)] for r in gain_rows(c)
+            [r["law"], r["failure"], f"{signed(r, 'gain', 100.0, 1)} points", *(signed_error(r, kind) for kind in kinds)]
+            for r in gain_rows(c)
         ]
-        print_rows(out, Rows(["law", "locked", f"converge, more than with {c.names[0]}", f"end error, {size}"], rows))
+        titles = [f"{kind.text}, {kind.unit}" for kind in kinds]
+        print_rows(out, Rows(["law", "locked", f"converge, more than with {c.names[0]}", *titles], rows))
     if c.clearance is not None:
         print_rows(out, touch_rows(c))
         out.print(f"contacts are reported, not enforced; {shape_text(c.clearance, 0.0)}", soft_wrap=True)
@@ -115,9 +117,15 @@ def signed(row: dict[str, Any], of: str, factor: float, digits: int) -> str:
     return f"{value} ({low} to {high})"
 
 
-def error_unit(c: LawComparison) -> str:
-    """Of the norm of the task's error."""
-    return "m and rad" if c.laws[0].task.angular else "m"
+def signed_error(row: dict[str, Any], kind: ErrorKind) -> str:
+    """Return the change of one error with its interval, in the unit for people."""
+    return signed(row, kind.key, kind.factor, 1)
+
+
+def error_cell(row: dict[str, Any], kind: ErrorKind, of: str, none: str) -> str:
+    """Return one error of a row of the table in the unit for people; ``of`` is a quantile such as 50, or astray."""
+    value = row[f"{kind.key}_{of}"]
+    return none if value is None else number(kind.factor * value)
 
 
 def time_unit(c: LawComparison) -> str:
@@ -145,7 +153,7 @@ def headline(c: LawComparison) -> str:
 def _verdict(c: LawComparison, name: str) -> str:
     if len(c) < 2:
         return ""
-    gain, nearer = c.gain(name), c.change(name, "error")
+    gain = c.gain(name)
     first = c.names[0]
     if gain.low > 0 and c.gain(name, undecided="against").low > 0:
         text = f"With {name} more converge than with {first}, by {_points(gain.value)}"
@@ -153,11 +161,13 @@ def _verdict(c: LawComparison, name: str) -> str:
         text = f"With {name} fewer converge than with {first}, by {_points(-gain.value)}"
     else:
         text = f"It cannot be told whether more or fewer converge with {name} than with {first}"
-    if nearer.high < 0 or nearer.low > 0:
-        size = "" if c.laws[0].task.angular else " m"
-        way = "nearer to" if nearer.value < 0 else "farther from"
-        text += f"; on average its runs end {number(abs(nearer.value))}{size} {way} the target"
-    return f"{text}."
+    parts = []
+    for kind in error_kinds(c.laws[0]):
+        change = c.change(name, kind.name)
+        if change.high < 0 or change.low > 0:
+            way = "nearer to" if change.value < 0 else "farther from"
+            parts.append(f"{number(kind.factor * abs(change.value), 3)} {kind.unit} {way} {kind.whole}")
+    return f"{text}{'; on average its runs end ' * bool(parts)}{' and '.join(parts)}."
 
 
 def _points(share: float) -> str:
@@ -191,9 +201,9 @@ def gain_rows(c: LawComparison) -> list[dict[str, Any]]:
             row: dict[str, Any] = {"law": name, "than": c.names[0], "failure": failure}
             gain = c.gain(name, failure)
             row |= {"gain": gain.value, "gain_low": gain.low, "gain_high": gain.high, "gain_p_value": gain.p_value}
-            for of in ("error", "excess"):
-                d = c.change(name, of, failure)
-                row |= {of: d.value, f"{of}_low": d.low, f"{of}_high": d.high}
+            for kind in error_kinds(c.laws[0]):
+                d = c.change(name, kind.name, failure)
+                row |= {kind.key: d.value, f"{kind.key}_low": d.low, f"{kind.key}_high": d.high}
             rows.append(row)
     return rows
 
@@ -216,7 +226,9 @@ def run_rows(c: LawComparison) -> list[dict[str, Any]]:
     for case in (c.case(name, failure) for name in c.names for failure in c.failures):
         for k in range(len(c)):
             row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motion": k, "outcome": OUTCOMES[case.code[k]]}
-            row |= {"reachable": int(case.reachable[k])} | {of: f"{getattr(case, of)[k]:.9g}" for of in _OF_A_RUN}
+            row["reachable"] = int(case.reachable[k])
+            row |= {kind.key: f"{getattr(case, kind.name)[k]:.9g}" for kind in error_kinds(c.laws[0])}
+            row |= {of: f"{getattr(case, of)[k]:.9g}" for of in _OF_A_RUN}
             row["past_limits"] = int(case.past_limits[k])
             if case.contacts is not None:
                 touch = case.contacts[k]

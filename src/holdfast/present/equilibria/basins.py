@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.equilibria.attraction import Basins
 from holdfast.equilibria.stability import Kind
 from holdfast.present.equilibria import points as points_of
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows
 from holdfast.present.story import Story
 from holdfast.words import counted, percent
 
@@ -28,11 +28,9 @@ def to_dict(found: Basins) -> dict[str, Any]:
 
 def tables(found: Basins) -> list[Rows]:
     """A row for each end of a start."""
-    codes = {found.name(k): k for k in range(len(found.points))}
-    rows = [
-        [name, str(share), number(found.points.error[codes[name]]) if name in codes else ""] for name, share in found.shares
-    ]
-    return [Rows(["ends at", "fraction of starts", points_of.error_head(found.points.law)], rows)]
+    off = dict(zip(map(found.name, range(len(found.points))), points_of.off_target(found.points), strict=True))
+    rows = [[name, str(share), off.get(name, "")] for name, share in found.shares]
+    return [Rows(["ends at", "fraction of starts", "error"], rows)]
 
 
 def story(found: Basins) -> Story:
@@ -86,10 +84,9 @@ def _words(name: str) -> str:
 
 
 def _off(found: Basins) -> dict[str, str]:
-    size = "" if found.points.law.task.angular else " m"
     return {
-        found.name(k): f", {number(e)}{size} off it"
-        for k, e in enumerate(found.points.error)
+        found.name(k): f", {error} off it"
+        for k, error in enumerate(points_of.off_target(found.points))
         if found.points.kind[k] != Kind.SOLUTION
     }
 

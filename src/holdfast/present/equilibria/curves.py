@@ -8,9 +8,11 @@ import numpy as np
 
 from holdfast.equilibria.curves import Curves
 from holdfast.equilibria.stability import Kind
-from holdfast.present.equilibria.points import error_head
 from holdfast.present.printing import Rows, number
+from holdfast.present.simulation.errors import error_text
 from holdfast.present.story import Story
+from holdfast.simulation.errors import error_kinds, shown_errors
+from holdfast.simulation.system import tool_errors
 from holdfast.words import capitalised, either, percent
 
 if TYPE_CHECKING:
@@ -53,10 +55,11 @@ def tables(curves: Curves) -> list[Rows]:
     rows = []
     for k, c in enumerate(curves.curves):
         for s in c.segments:
-            error = c.error[s.first : s.last + 1]
             ends = f"{factor * c.locked[s.first]:.3f} to {factor * c.locked[s.last]:.3f}"
-            rows.append([str(k + 1), ends, s.kind.word, f"{number(error.min())} to {number(error.max())}"])
-    head = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind", f"{error_head(curves.law)}, least to most"]
+            spans = [errors[s.first : s.last + 1] for errors in shown_errors(curves.law, c.q, c.error, curves.target)]
+            rows.append([str(k + 1), ends, s.kind.word, *(f"{number(e.min())} to {number(e.max())}" for e in spans)])
+    titles = [f"{kind.text}, {kind.unit}, least to most" for kind in error_kinds(curves.law)]
+    head = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind", *titles]
     return [Rows(head, rows)] if curves.curves else []
 
 
@@ -65,16 +68,18 @@ def story(curves: Curves) -> Story:
     arm = curves.law.arm
     joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].shown
     arcs = [f"{factor * a:.4g} to {factor * b:.4g}" for a, b in curves.sink_arcs]
-    far = max(
-        (float(c.error[s.first : s.last + 1].max()) for c in curves.curves for s in c.segments if s.kind == Kind.SINK),
-        default=0,
-    )
-    size = "" if curves.law.task.angular else " m"
+    sinks = [
+        tool_errors(curves.law, c.q[s.first : s.last + 1], c.error[s.first : s.last + 1], curves.target)
+        for c in curves.curves
+        for s in c.segments
+        if s.kind == Kind.SINK
+    ]
+    far = error_text(curves.law, *np.max([(0.0, 0.0), *(np.max(pair, axis=1) for pair in sinks)], axis=0))
     if arcs:
         whole = curves.sink_arcs == [(-np.pi, np.pi)]
         answer = (
             f"With {joint.name} locked at {'any value' if whole else f'{either(arcs)} {unit}'} "
-            f"the arm can stop off its target, by up to {number(far)}{size}."
+            f"the arm can stop off its target, by up to {far}."
         )
         if not whole:
             answer += " At other values no sink was found."
@@ -96,7 +101,7 @@ def story(curves: Curves) -> Story:
                     f"of {'the range' if joint.prismatic else 'a turn'} of {joint.name} has a sink",
                 )
             )
-        facts.append((f"{number(far)}{size}", "off the target, at the farthest sink"))
+        facts.append((far, "off the target, at the farthest sinks"))
     facts += [(f"{len(curves):,}", "curves of stationary points"), (f"{curves.starts:,}", "random starts that looked for them")]
     return Story(
         f"Where {arm.name} can stop, over the value at which {joint.name} locks",

@@ -8,9 +8,11 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.equilibria.attraction import Basins
-from holdfast.equilibria.curves import Curves
+from holdfast.equilibria.curves import Curve, Curves
+from holdfast.equilibria.points import StationaryPoints
 from holdfast.equilibria.system import wrapped
 from holdfast.report.curves import RestLine, basin_map, curves_over, share_bars
+from holdfast.simulation.errors import error_kinds, shown_errors
 
 Array = NDArray[np.float64]
 
@@ -25,21 +27,21 @@ def curves_figure(curves: Curves) -> Figure:
     """
     arm, joint, system = curves.law.arm, curves.joint, curves._system
     others = [k for k in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MOST_JOINTS]
-    size = "m and rad" if curves.law.task.angular else "m"
-    shown = [f"error of the end effector, {size}", *(_axis(arm, k) for k in others)]
+    shown = [*(f"{kind.text}, {kind.unit}" for kind in error_kinds(curves.law)), *(_axis(arm, k) for k in others)]
 
-    def rows(q: Array, error: Array) -> list[Array]:
-        return [error, *(_values(arm, q, k) for k in others)]
+    def rows(of: Curve | StationaryPoints, some: slice | NDArray[np.bool_]) -> list[Array]:
+        errors = shown_errors(curves.law, of.q[some], of.error[some], curves.target)
+        return [*errors, *(_values(arm, of.q[some], k) for k in others)]
 
     lines = [
-        RestLine(s.kind.word, _values(arm, q, joint), rows(q, e))
+        RestLine(s.kind.word, _values(arm, c.q[points], joint), rows(c, points))
         for c in curves.curves
         for s in c.segments
-        for q, e in [(c.q[s.first : s.last + 1], c.error[s.first : s.last + 1])]
+        for points in [slice(s.first, s.last + 1)]
     ]
     loose = curves.loose
     dots = [
-        RestLine(word, _values(arm, loose.q[some], joint), rows(loose.q[some], loose.error[some]))
+        RestLine(word, _values(arm, loose.q[some], joint), rows(loose, some))
         for word, some in (("degenerate", ~loose.attracting), ("sink", loose.attracting))
         if some.any()
     ]

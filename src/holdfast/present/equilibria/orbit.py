@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from holdfast.equilibria.limit_cycles import Orbit
 from holdfast.present.printing import Rows, number
 
@@ -24,4 +26,10 @@ def tables(orbit: Orbit) -> list[Rows]:
     values = zip(orbit.amplitude, orbit.windings, orbit.rates, strict=True)
     rows = [[str(k + 1), number(range_), str(turns), number(rate)] for k, (range_, turns, rate) in enumerate(values)]
     head = ["joint", "range, rad (or m)", "whole turns", "mean rate, rad/s (or m/s)"]
-    return [Rows(head, rows, f"over a period; error {number(orbit.error[0])} to {number(orbit.error[1])}, m and rad")]
+    kinds = (("distance from the target", orbit.position_error, 1000.0, " mm"), ("angle", orbit.angle_error, 180 / np.pi, "°"))
+    errors = [
+        f"{name} {number(factor * low)} to {number(factor * high)}{unit}, largest {number(time)} s after q"
+        for (name, (low, high), factor, unit), time in zip(kinds, orbit.largest_times, strict=True)
+        if high > 0
+    ]
+    return [Rows(head, rows, "; ".join(["over a period", *errors]))]

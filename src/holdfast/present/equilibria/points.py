@@ -9,13 +9,14 @@ import numpy as np
 from holdfast.equilibria.points import StationaryPoints
 from holdfast.equilibria.stability import REACHED, Kind
 from holdfast.present.printing import Rows, number, print_rows
+from holdfast.present.simulation.errors import error_text
 from holdfast.present.story import Story
+from holdfast.simulation.errors import error_kinds, shown_errors
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from rich.console import Console
-
-    from holdfast.control.law import Law
 
 SHOWN = 12  # points of a kind on the console
 ROWS = 60  # on a page
@@ -32,7 +33,7 @@ _COUNTED = {
 
 def to_dict(points: StationaryPoints) -> dict[str, Any]:
     """All points by what they are; eigenvalues in units of the gain Ke."""
-    arm = points.law.arm
+    arm, kinds = points.law.arm, error_kinds(points.law)
     return {
         **arm.entry(),
         "law": points.law.slug,
@@ -43,7 +44,7 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
             {
                 "kind": points.kinds[k],
                 "q": dict(zip(arm.joint_names, points.q[k], strict=True)),
-                "error": points.error[k],
+                **{kind.key: getattr(points, kind.name)[k] for kind in kinds},
                 "eigenvalues": points.eigenvalues[k],
                 "continuum": points.continuum[k],
                 "attracting": points.attracting[k],
@@ -57,7 +58,9 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
 def tables(points: StationaryPoints) -> list[Rows]:
     """A row for each point; joints in degrees or m."""
     joints = points.law.arm.joints
-    head = ["kind", *(f"{j.name}, {j.shown[1]}" for j in joints), error_head(points.law), "eigenvalues, Ke", ""]
+    titles = [f"{kind.text}, {kind.unit}" for kind in error_kinds(points.law)]
+    errors = shown_errors(points.law, points.q, points.error, points.target)
+    head = ["kind", *(f"{j.name}, {j.shown[1]}" for j in joints), *titles, "eigenvalues, Ke", ""]
     rows = []
     attracting = points.attracting
     for k, kind in enumerate(points.kinds):
@@ -66,7 +69,8 @@ def tables(points: StationaryPoints) -> list[Rows]:
         notes += ["attracting"] if loose and points.error[k] > REACHED and attracting[k] else []
         notes += [] if points.within_limits[k] else ["beyond limits"]
         values = [f"{j.shown[0] * x:.4f}" for j, x in zip(joints, points.q[k], strict=True)]
-        rows.append([kind, *values, number(points.error[k]), _spread(points.eigenvalues[k]), ", ".join(notes)])
+        values += [number(error[k]) for error in errors]
+        rows.append([kind, *values, _spread(points.eigenvalues[k]), ", ".join(notes)])
     return [Rows(head, rows)]
 
 
@@ -79,10 +83,10 @@ def where(points: StationaryPoints) -> str:
 
 def story(points: StationaryPoints) -> Story:
     """Where the arm can stop: at its target, off it, or nowhere."""
-    law, size = points.law, "" if points.law.task.angular else " m"
+    law = points.law
     solved = points.kind == Kind.SOLUTION
     holds = ~solved & points.attracting
-    errors = np.sort(points.error[holds])
+    errors = off_target(points)[holds][np.argsort(points.error[holds])]
     there = f"With {where(points)} the target"
     if not len(points):
         answer = f"{there} is not reached in any configuration found, and no point at which the arm stops was found either."
@@ -92,14 +96,14 @@ def story(points: StationaryPoints) -> Story:
             f"{there} {reached or 'is out of reach, and no stationary point that attracts was found: the arm keeps moving'}."
         )
     else:
-        near, far = (f"{number(x)}{size}" for x in errors[[0, -1]])
+        near, far = errors[[0, -1]]
         some = "a stationary point" if len(errors) == 1 else f"one of {len(errors)} stationary points that attract"
         some += f", {near} off it" if near == far else f", {near} to {far} off it"
         how = "within reach, but the arm can also stop at" if solved.any() else "out of reach, and the arm stops at"
         answer = f"{there} is {how} {some}."
     facts = [(f"{int((points.kind == kind).sum()):,}", _COUNTED[kind]) for kind in Kind if (points.kind == kind).any()]
     if errors.size:
-        facts.insert(0, (f"{number(errors[0])}{size}", "off the target, at the nearest point that holds the arm away from it"))
+        facts.insert(0, (errors[0], "off the target, at the nearest point that holds the arm away from it"))
     lines = [*map(capitalised, points.describe()[1:])] if points.continuum.any() or _idle(points) else []
     return Story(
         f"Where {law.arm.name} can stop with a lock that its controller does not know of",
@@ -162,9 +166,10 @@ def show(points: StationaryPoints, out: Console) -> None:
         out.print(f"and {len(points) - len(shown)} more; --json has all", soft_wrap=True)
 
 
-def error_head(law: Law) -> str:
-    """What the norm of the task's error is, with its unit."""
-    return "error, m and rad" if law.task.angular else "error, m"
+def off_target(points: StationaryPoints) -> NDArray[np.str_]:
+    """Return the distance and the angle of each point (P,) from the target in words, as far as the task prescribes them."""
+    pairs = zip(points.position_error, points.angle_error, strict=True)
+    return np.array([error_text(points.law, position, angle) for position, angle in pairs], dtype=np.str_)
 
 
 def _spread(values: Any) -> str:

@@ -53,7 +53,7 @@ def story(region: TolerantWorkspace) -> Story:
     worst, names = int(lost.argmax()), region.arm.joint_names
     limits = "Under the limits that were found" if region.optimised else "Under the artificial limits"
     if not region.healthy_size:
-        answer = "The healthy arm reaches none of the points that were tried, so nothing can be kept."
+        answer = "The healthy arm reaches none of the points that were tried, so there is nothing to compare."
     elif not region.within.any():
         answer = (
             f"{limits} the arm reaches no point even before a joint locks, of "

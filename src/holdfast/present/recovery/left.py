@@ -59,7 +59,7 @@ def story(left: WhatIsLeft) -> Story:
     if not found.value:
         answer = (
             f"With {failed}, none of the {int(left.healthy.sum()):,} targets that the "
-            f"healthy arm reaches was reached: at most {percent(found.high)} of them are left, 95 %."
+            f"healthy arm reaches was found to be reached in {left.starts} starts each, which does not prove that none is."
         )
     facts = [(percent(found.value), "of what the healthy arm reaches is left")] if found.value else []
     return Story(

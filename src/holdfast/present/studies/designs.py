@@ -10,6 +10,7 @@ from holdfast.arms.serial import from_dict
 from holdfast.designs.choice import best_design, farther
 from holdfast.designs.search import pareto
 from holdfast.indices.index import by_name
+from holdfast.indices.own_file import check_digest
 from holdfast.present.designs.figures import front_figure, parameters_figure
 from holdfast.report import figures
 from holdfast.report.page import Block, Cell, Picture, Table, Text
@@ -107,4 +108,6 @@ def _told(values: Array, s: Swept, factor: float) -> tuple[str, str]:
 
 def _bound(s: Swept) -> float | None:
     task = Task.from_dict(s.plan["task"])
-    return by_name(s.plan["index"], from_dict(s.plan["arm"]), task, failures=[list(f) for f in s.plan["failures"]]).bound
+    index = by_name(s.plan["index"], from_dict(s.plan["arm"]), task, failures=[list(f) for f in s.plan["failures"]])
+    check_digest(index, s.plan)
+    return index.bound

@@ -18,6 +18,7 @@ from holdfast.designs.search import region_poses
 from holdfast.designs.space import DesignSpace, Parameter
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
+from holdfast.indices.own_file import check_digest
 from holdfast.regions.region import Region
 from holdfast.studies.jobs.process import PlannedJob
 
@@ -54,6 +55,7 @@ class DesignJob(PlannedJob[Made]):
         p = self.plan
         space = space_of(p)
         family = Family(space, p["index"], Task.from_dict(p["task"]), failures=[list(f) for f in p["failures"]])
+        check_digest(family.index, p)
         poses, weights = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
         designs = designs_of(space, self.rows, p["seed"])
         return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs, weights

@@ -152,7 +152,7 @@ class Machine:
         """What the best and the worst configuration are chosen by, or the sentence that says why they cannot be."""
         with self._making:
             if name not in self._objectives:
-                found = self.index(name) if name.partition(":")[0] in INDICES else self.susceptibility(name)
+                found = self.index(name) if INDICES.covers(name) else self.susceptibility(name)
                 self._objectives[name] = found if isinstance(found, str) else (found, found.reversed())
             return self._objectives[name]
 
