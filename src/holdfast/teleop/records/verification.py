@@ -102,10 +102,18 @@ def readable(folder: Path) -> Iterator[Records]:
     except HoldfastError:
         raise
     except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError) as error:
-        damaged = verify(folder).damaged
-        if not damaged:
-            raise
-        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup") from error
+        refuse_damage(folder)
+        raise error
+
+
+def refuse_damage(folder: Path) -> None:
+    """Compare everything that is stored with its digests before it is used.
+
+    Raises:
+        StoreError: Something is not as it was written.
+    """
+    if damaged := verify(folder).damaged:
+        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup")
 
 
 class _Check:
