@@ -105,7 +105,7 @@ def flipped(source: Path, copy: Path, count: int, rng: np.random.Generator, read
 
 def change_bits(data: bytes, count: int, rng: np.random.Generator) -> list[tuple[int, int]]:
     """Choose bytes of the data, and each with another value for one of its bits."""
-    places = (divmod(place, 8) for place in rng.choice(8 * len(data), count, replace=False).tolist())
+    places = (divmod(place, 8) for place in rng.choice(8 * len(data), count, replace=8 * len(data) < count).tolist())
     return [(byte, data[byte] ^ 1 << bit) for byte, bit in places]
 
 

@@ -10,10 +10,14 @@ from holdfast.files import reading
 from holdfast.files.digest import check_seal, is_sealed
 
 
-def read_sealed(path: str | Path) -> Any:
+def read_sealed(path: str | Path, own_digest: bool = False) -> Any:
     """Return the content of a JSON file without its digest, after comparing it with the digest.
 
     A file without a digest is read only if it does not state that it is sealed: earlier versions wrote none.
+
+    Args:
+        path: The file.
+        own_digest: Files of earlier versions have an entry ``digest`` with another meaning, which is returned.
 
     Raises:
         OSError: The file cannot be read.
@@ -22,7 +26,7 @@ def read_sealed(path: str | Path) -> Any:
     """
     content = reading.raw(path).decode()  # exactly: a changed end of a line counts as well
     data = reading.parsed(path)
-    if isinstance(data, dict) and ("sealed" in data or "digest" in data or is_sealed(content)):
+    if isinstance(data, dict) and ("sealed" in data or is_sealed(content) or ("digest" in data and not own_digest)):
         check_seal(content)
         del data["digest"]
     elif not isinstance(data, dict):
