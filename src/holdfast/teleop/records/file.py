@@ -137,7 +137,7 @@ def connect(folder: Path) -> tuple[sqlite3.Connection, Protocol, bool]:
         raise StoreError(f"'{folder}' holds no experiment: there is no {FILE} in it; begin one in a new folder")
     try:
         db, read_only = opened(file)
-    except sqlite3.Error as error:
+    except (sqlite3.Error, ValueError) as error:  # names in a damaged file need not be UTF-8
         raise _damaged(file, error) from error
     try:
         return db, _checked(folder, db), read_only
