@@ -728,7 +728,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     def records_of(path: Path) -> object:
         for left in path.parent.glob("records.sqlite-*"):
             left.unlink()
-        with readable(path.parent) as records:
+        with readable(path.parent) as records, np.errstate(all="ignore"):
             return teleop.trial_table(records), teleop.cycle_table(records), records.events(), records.subjects()
 
     def sound_records_of(path: Path) -> object:
