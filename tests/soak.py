@@ -9,7 +9,7 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_OUTAGE     seconds without network in mid-trial, in a browser, 30
     HOLDFAST_KILLS      of a program that writes records, 40
     HOLDFAST_FLIPS      single bits changed in a folder of records, 10000
-    HOLDFAST_CHANGES    single bits, and as many digits, changed in each stored file of an assessment, a study and an experiment, 2000
+    HOLDFAST_CHANGES    single bits, and as many digits, changed in each file of assessments, studies and experiments, 2000
     HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
     HOLDFAST_ROUNDS     of two child processes forked, of two spawned, and of four threads, while kernels are made, 1000 each
     HOLDFAST_INPUTS     mutated input files of every kind, 40000
