@@ -25,7 +25,7 @@ class Seen:
 
     Attributes:
         touched: How many changed what another program reads.
-        missed: Those of which verify said nothing: file, byte, bit.
+        missed: Those that were not seen: file, byte, new value.
     """
 
     touched: int = 0
@@ -100,22 +100,60 @@ def content(folder: Path) -> object:
 
 def flipped(source: Path, copy: Path, count: int, rng: np.random.Generator, read: Callable[[], object] = lambda: None) -> Seen:
     """Change single bits of a copy, one at a time, and ask verify; ``read`` is called where the change touched data."""
+    return changed(source, copy, change_bits, count, rng, read=read)
+
+
+def change_bits(data: bytes, count: int, rng: np.random.Generator) -> list[tuple[int, int]]:
+    """Choose bytes of the data, and each with another value for one of its bits."""
+    places = (divmod(place, 8) for place in rng.choice(8 * len(data), count, replace=8 * len(data) < count).tolist())
+    return [(byte, data[byte] ^ 1 << bit) for byte, bit in places]
+
+
+def change_digits(data: bytes, count: int, rng: np.random.Generator) -> list[tuple[int, int]]:
+    """Choose bytes of the data that are decimal digits, and for each another digit."""
+    digits = np.flatnonzero((np.frombuffer(data, np.uint8) >= ord("0")) & (np.frombuffer(data, np.uint8) <= ord("9")))
+    return [(byte, 48 + (data[byte] - 48 + int(rng.integers(1, 10))) % 10) for byte in rng.choice(digits, count).tolist()]
+
+
+def is_damaged(folder: Path) -> bool:
+    """Return whether verify finds damage."""
+    return bool(verify(folder).damaged)
+
+
+def changed(
+    source: Path,
+    copy: Path,
+    change: Callable[[bytes, int, np.random.Generator], list[tuple[int, int]]],
+    count: int,
+    rng: np.random.Generator,
+    *,
+    is_seen: Callable[[Path], bool] = is_damaged,
+    read: Callable[[], object] = lambda: None,
+) -> Seen:
+    """Change single bytes of a copy, one at a time.
+
+    Args:
+        source: The folder of an experiment.
+        copy: Where the changes are made.
+        change: Chooses bytes and their new values.
+        count: How many changes.
+        rng: Of the choices.
+        is_seen: Is asked of the copy after each change of data.
+        read: Is called after each change of data.
+    """
     copied(source, copy)
     before, seen = content(source), Seen()
     files = [copy / "records.sqlite", copy / "protocol.yaml"]
-    sizes = np.array([f.stat().st_size for f in files])
+    size = files[0].stat().st_size
     assert sorted(f.name for f in copy.iterdir()) == sorted(f.name for f in files)
-    for place in rng.choice(int(8 * sizes.sum()), count, replace=False).tolist():
-        which = int(place >= 8 * sizes[0])
-        byte, bit = divmod(place - which * 8 * int(sizes[0]), 8)
+    for place, value in change(b"".join(f.read_bytes() for f in files), count, rng):
+        which, byte = int(place >= size), place - size * (place >= size)
         original = files[which].read_bytes()
-        changed = bytearray(original)
-        changed[byte] ^= 1 << bit
-        files[which].write_bytes(changed)
+        files[which].write_bytes(original[:byte] + bytes([value]) + original[byte + 1 :])
         touched = content(copy) != before
         seen.touched += touched
-        if touched and not verify(copy).damaged:
-            seen.missed.append((files[which].name, byte, bit))
+        if touched and not is_seen(copy):
+            seen.missed.append((files[which].name, byte, value))
         if touched:
             read_protocol()
         for left in copy.glob("records.sqlite-*"):

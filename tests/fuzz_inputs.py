@@ -18,6 +18,8 @@ import json
 import os
 import re
 import signal
+import socket
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -26,22 +28,25 @@ import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import yaml
 
 import holdfast
+from flips import change_digits
 from holdfast.errors import HoldfastError
-from sealing import read_unsealed
+from sealing import read_unsealed, read_unsealed_study
 
 SEED = 20120831
 MOST_SECONDS = 10.0  # of the processor: other programs may take theirs
 MOST_WAITED = 60.0
 MOST_LETTERS = 1500
+REFITTED = "a mutation with digests that fit"
 
 # What people and programs write where something else belongs.
 NUMBERS = (
@@ -360,11 +365,49 @@ def _entry(data: object, trail: tuple[object, ...]) -> object:
 def of_digits(data: bytes, rng: np.random.Generator) -> bytes:
     """One decimal digit changed into another one."""
     out = bytearray(data)
-    places = [k for k, byte in enumerate(out) if 48 <= byte <= 57]
-    if places:
-        at = places[rng.integers(len(places))]
-        out[at] = 48 + (out[at] - 48 + int(rng.integers(1, 10))) % 10
+    for place, value in change_digits(data, 1, rng):
+        out[place] = value
     return bytes(out)
+
+
+def of_certificate(data: bytes, rng: np.random.Generator) -> bytes:
+    """The structure of a certificate, in half of the cases with digests and a sentence that fit."""
+    from holdfast.certificates import verifier
+
+    changed = of_json(data, rng)
+    if rng.random() < 0.5:
+        return changed
+    with suppress(Exception):  # a document that has no digests or no sentence
+        document = json.loads(changed)
+        document["made_by"] = REFITTED
+        document["arm_digest"] = verifier.digest(document["arm"])
+        document["claim"] = verifier.sentence(document)
+        document["digest"] = verifier.digest(document)
+        return json.dumps(document).encode()
+    return changed
+
+
+def of_records(data: bytes, rng: np.random.Generator) -> bytes:
+    """Some cells of the tables of an SQLite file replaced, or rows deleted."""
+    with closing(sqlite3.connect(":memory:", isolation_level=None)) as db:
+        db.deserialize(data[:18] + b"\x01\x01" + data[20:])  # a file with a write-ahead log is not opened from memory
+        for _ in range(int(rng.integers(1, 4))):
+            tables = [row[0] for row in db.execute("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name")]
+            table = tables[rng.integers(len(tables))]
+            columns = [row[1] for row in db.execute(f"PRAGMA table_info({table})")]
+            column, key, all_rows = columns[rng.integers(len(columns))], columns[0], rng.random() < 0.2
+            value = THINGS[rng.integers(len(THINGS))]
+            value = value if isinstance(value, (int, float, str)) and abs(hash(value)) < 2**61 else rng.bytes(8)
+            with suppress(sqlite3.Error, OverflowError, UnicodeEncodeError):
+                keys = [row[0] for row in db.execute(f"SELECT {key} FROM {table} ORDER BY {key}")]
+                one = keys[rng.integers(len(keys))] if keys and not all_rows else None
+                where = "" if one is None else f" WHERE {key} = ?2"
+                if rng.random() < 0.2:
+                    db.execute(f"DELETE FROM {table}{where.replace('?2', '?1')}", () if one is None else (one,))
+                else:
+                    db.execute(f"UPDATE {table} SET {column} = ?1{where}", (value,) if one is None else (value, one))
+        out = db.serialize()
+    return out[:18] + data[18:20] + out[20:]
 
 
 def of_archive(data: bytes, rng: np.random.Generator) -> bytes:
@@ -550,14 +593,50 @@ def solids(root: Path) -> dict[str, list[bytes]]:
     return {kind: [x.encode() if isinstance(x, str) else x for x in all_] for kind, all_ in found.items()}
 
 
+COLUMNS = [
+    b"t: stamp\nq_ref: {column: 'want_*', unit: deg}\nq: {column: [have_1, have_2, have_3], unit: deg}\ntau: 'torque_*'\n",
+    b"t: {column: stamp, unit: ms}\nq_ref: {column: 'want_*'}\nq: 'have_*'\n",
+]
+LISTS = b"q_ref: {column: 'want[*]'}\nq: {column: 'have[*]', unit: rad}\n"
+
+
+def special_files(folder: Path, endings: set[str]) -> list[Path]:
+    """Everything with a name that is not a regular file that can be read, with each of the endings."""
+    found = []
+    folder.mkdir()
+    for ending in sorted(endings):
+        for name in ("pipe", "socket", "folder", "loop", "nowhere", "zero", "null", "full", "memory"):
+            path = folder / f"{name}{ending}"
+            match name:
+                case "pipe":
+                    os.mkfifo(path)
+                case "socket":
+                    with closing(socket.socket(socket.AF_UNIX)) as listener:
+                        listener.bind(str(path))
+                case "folder":
+                    path.mkdir()
+                case "loop":
+                    path.symlink_to(path)
+                case "nowhere":
+                    path.symlink_to(folder / "none")
+                case "memory":
+                    path.symlink_to("/proc/self/mem")
+                case device:
+                    path.symlink_to(f"/dev/{device}")
+            found.append(path)
+    return found
+
+
 def kinds(root: Path) -> dict[str, Kind]:
     """Everything that is read, set up in a folder."""
+    import flips
     import holdfast as hf
     from holdfast import arms, teleop
     from holdfast import engine as study
     from holdfast.arms.serial import to_dict
     from holdfast.assessment import load
     from holdfast.cell import Mesh, Points
+    from holdfast.certificates import verifier
     from holdfast.clearance import Capsules
     from holdfast.cli.values import read_weights
     from holdfast.designs.book.entries import read as read_record
@@ -571,6 +650,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.studies import read as read_study
     from holdfast.studies.results import assessed
     from holdfast.studio.motions import read_motion
+    from holdfast.teleop.records.verification import readable
     from holdfast.teleop.serve import texts
 
     def arm_of(path: Path) -> object:
@@ -611,7 +691,53 @@ def kinds(root: Path) -> dict[str, Kind]:
 
     def run_of(_: Path) -> object:
         found = load(run)
-        return found.distribution, found.default_threshold, found.store.missing, found.store.dataset()  # type: ignore[union-attr]
+        return found.distribution, found.default_threshold(), found.store.missing, found.store.dataset()  # type: ignore[union-attr]
+
+    def result_of(_: Path) -> tuple[Any, ...]:
+        found = load(run)
+        return found.plan.to_dict(), found.store.missing, found.default_threshold(), found.store.dataset()  # type: ignore[union-attr]
+
+    stored, original = (run / "run.json").read_bytes(), result_of(run)
+
+    def sealed_run_of(path: Path) -> object:
+        *entries, rows = result_of(path)
+        assert entries == list(original[:-1]), "accepted another plan"
+        assert rows.equals(original[-1]), "accepted other rows"
+        return run_of(path)
+
+    certificate = root / "a.certificate"
+    proofs = [
+        hf.certify(hf.certificates.reach_claim(planar, (1.5, 0.8), 0.1, locked={"joint1": (0.2, 0.6)})),
+        hf.certify(hf.certificates.out_of_reach_claim(planar, (9.5, 0.5), 0.1)),
+    ]
+    certificates = [proof.write(certificate).read_bytes() for proof in proofs]
+    digests = {verifier.digest(json.loads(data)) for data in certificates}
+
+    def certificate_of(path: Path) -> object:
+        found = hf.certificates.check_certificate(path)
+        document = json.loads(path.read_bytes())
+        if document.get("made_by") != REFITTED:
+            assert verifier.digest(document) in digests, "accepted another certificate"
+        return found
+
+    flips.experiment(root / "experiment")
+    flips.experiment(root / "older")
+    flips.older(root / "older")
+
+    def records_of(path: Path) -> tuple[Any, ...]:
+        for left in path.parent.glob("records.sqlite-*"):
+            left.unlink()
+        with readable(path.parent) as records, np.errstate(all="ignore"):
+            return teleop.trial_table(records), teleop.cycle_table(records), records.events(), records.subjects()
+
+    sound_records = records_of(root / "experiment" / "records.sqlite")
+
+    def sound_records_of(path: Path) -> object:
+        *tables, events, subjects = records_of(path)
+        same = all(table.equals(other) for table, other in zip(tables, sound_records[:2], strict=True))
+        assert same, "accepted another table"
+        assert [events, subjects] == list(sound_records[2:]), "accepted other events or subjects"
+        return tables
 
     still = np.full((200, 3), 0.01)
     torques = planar.gravity_torque(still) + 0.1 * np.sin(np.arange(200))[:, None]
@@ -634,10 +760,22 @@ def kinds(root: Path) -> dict[str, Kind]:
     def one(file: Path, structure: Callable[[bytes, np.random.Generator], bytes], read: Callable[[Path], object]) -> Kind:
         return Kind([file.read_bytes()], structure, read, file)
 
+    import pyarrow
+    from pyarrow import parquet
+
+    names = ["stamp", *(f"{x}_{k}" for x in ("want", "have", "torque") for k in (1, 2, 3))]
+    table_of_log = np.column_stack([record.t, np.rad2deg(record.q_ref), np.rad2deg(record.q), record.tau])
+    np.savetxt(root / "named.csv", table_of_log, delimiter=",", header=",".join(names), comments="")
+    (root / "lists.yaml").write_bytes(LISTS)
+    rows = pyarrow.table({"t": record.t, "want": record.q_ref.tolist(), "have": record.q.astype("f4").tolist()})
+    parquet.write_table(rows, root / "lists.parquet")
+
     cell = next((root / "study" / "cells").iterdir())
+    (root / "study" / "study.json").write_text(json.dumps(read_unsealed_study(root / "study" / "study.json")))
+    (root / "study" / "made.json").write_text(json.dumps(read_unsealed(root / "study" / "made.json")))
     for file in (run / "run.json", cell / "run.json"):  # without a digest, which would refuse every change
         file.write_text(json.dumps(read_unsealed(file)))
-    return {
+    found = {
         "DH table": Kind([DH], of_yaml, arm_of, root / "in.yaml"),
         "region": Kind(REGIONS, of_yaml, hf.Region.load, root / "weighted" / "in.yaml"),
         "path": Kind(PATHS, of_yaml, read_path, root / "in.yaml"),
@@ -667,7 +805,17 @@ def kinds(root: Path) -> dict[str, Kind]:
         "waypoints": Kind([MOTION], of_table, lambda path: read_waypoints(planar, path), root / "in.csv"),
         "motion": Kind([MOTION], of_table, lambda path: read_motion(planar, path), root / "in.csv"),
         "weights": Kind([b"1,2,3\n4,5,6\n7,8,9\n"], of_table, lambda path: read_weights("--w", str(path)), root / "in.csv"),
-        "digits of run.json": one(run / "run.json", of_digits, run_of),
+        "columns": Kind(COLUMNS, of_yaml, lambda path: hf.faults.Log.load(root / "named.csv", columns=path), root / "in.yaml"),
+        "lists in parquet": Kind(
+            [(root / "lists.parquet").read_bytes()],
+            of_archive,
+            lambda path: hf.faults.Log.load(path, columns=root / "lists.yaml"),
+            root / "in.parquet",
+        ),
+        "certificate": Kind(certificates, of_certificate, certificate_of, root / "in.certificate"),
+        "records": one(root / "experiment" / "records.sqlite", of_records, sound_records_of),
+        "records without digests": one(root / "older" / "records.sqlite", of_records, records_of),
+        "digits of run.json": Kind([stored], of_digits, sealed_run_of, run / "run.json"),
         "run.json": one(run / "run.json", of_json, run_of),
         "attributes of a group": one(run / "samples.zarr" / "zarr.json", of_json, run_of),
         "attributes of an array": one(run / "samples.zarr" / "index" / "zarr.json", of_json, run_of),
@@ -679,6 +827,18 @@ def kinds(root: Path) -> dict[str, Kind]:
         BEFORE: one(root / "before" / BEFORE, of_json_lines, lambda path: Memory(path.parent, plan)),
         FILE: one(root / "search" / FILE, lambda x, r: of_bytes(x, r), lambda path: Memory(path.parent, plan)),
     }
+    readers = [kind for kind in found.values() if kind.file.stem == "in"]
+    places = special_files(root / "special", {kind.file.suffix for kind in readers})
+
+    def special_of(path: Path) -> object:
+        rng = np.random.default_rng(list(path.read_bytes()[:64]))
+        reader = readers[rng.integers(len(readers))]
+        special = [place for place in places if place.suffix == reader.file.suffix]
+        file = special[rng.integers(len(special))]
+        value = reader.read(file)
+        raise AssertionError(f"read {file.name} as {value!r:.80}")
+
+    return {**found, "pipe or device": Kind([b"any bytes choose one"], of_bytes, special_of, root / "in.txt")}
 
 
 # ---- running -----------------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_OUTAGE     seconds without network in mid-trial, in a browser, 30
     HOLDFAST_KILLS      of a program that writes records, 40
     HOLDFAST_FLIPS      single bits changed in a folder of records, 10000
-    HOLDFAST_CHANGES    single bits, and as many characters, changed in each stored file of an assessment, 2000
+    HOLDFAST_CHANGES    single bits, and as many digits, changed in each file of assessments, studies and experiments, 2000
     HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
     HOLDFAST_ROUNDS     of two child processes forked, of two spawned, and of four threads, while kernels are made, 1000 each
     HOLDFAST_INPUTS     mutated input files of every kind, 40000
@@ -46,6 +46,7 @@ FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server
 OUTAGE = ("browser/test_session.py",)
 KILLED = ("teleop/test_records.py",)
 FLIPPED = ("cli/test_teleop_verify_command.py",)
+CHANGED = ("assessment/test_changed_files.py", "engine/test_changed_study.py", "teleop/test_changed_records.py")
 ROUNDS = ("kernels/test_kernel_levels.py",)
 STARTED = {"fork": "child_process and fork", "spawn": "child_process and spawn", "threads": "threads_make"}
 COMPILED = ("arm", "test_kinematics.py")
@@ -75,6 +76,8 @@ def main() -> int:
     survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
     flips = option("FLIPS", "10000")
     seen, flips_s = _tests(FLIPPED, "changed_bit", "HOLDFAST_FLIPS", flips)
+    changes = option("CHANGES", "2000")
+    refused, changes_s = _tests(CHANGED, "changed", "HOLDFAST_CHANGES", changes)
     rounds = option("ROUNDS", "1000")
     alive = {kind: _tests(ROUNDS, which, "HOLDFAST_ROUNDS", rounds) for kind, which in STARTED.items()}
     inputs = fuzz_inputs.fuzz(int(option("INPUTS", "40000")), fuzz_inputs.SEED, os.cpu_count() or 1)
@@ -96,6 +99,7 @@ def main() -> int:
         (f"{outage} s without network in mid-trial", f"{'nothing lost' if kept else 'FAILED'} ({outage_s:.0f} s)"),
         (f"{kills} times killed", f"{'nothing lost' if survived else 'FAILED'} ({kills_s:.0f} s)"),
         (f"{flips} bits changed", f"{'all of data seen' if seen else 'FAILED'} ({flips_s:.0f} s)"),
+        (f"{changes} bits and digits of stored files", f"{'all refused' if refused else 'FAILED'} ({changes_s:.0f} s)"),
         (f"{attack.sockets} silent sockets: p99, ms; lost; log", f"{attack.p99:.1f}; {attack.lost}; {attack.log} B"),
         (
             f"{inputs.counts.total()} mutated input files",
@@ -113,7 +117,7 @@ def main() -> int:
         print(f"  {name:<50} {value}")
     for cause in inputs.causes():
         print(f"  tests/fuzz_inputs.py: {cause}")
-    passed = fuzzed and kept and survived and seen and compiled and same
+    passed = fuzzed and kept and survived and seen and refused and compiled and same
     lost = figures.lost != 0 or figures.differing != 0 or attack.lost != 0
     slow = figures.p99 > MOST or attack.p99 > MOST_ATTACKED or attack.log > LOG
     return int(lost or slow or bool(inputs.failed) or not (passed and all(well for well, _ in alive.values())))

@@ -10,6 +10,7 @@ from pathlib import Path
 READ_SEEDS = """
 import fuzz_inputs
 with fuzz_inputs.place(None) as (kinds, _):
+    kinds.pop("pipe or device")  # which are refused
     for kind in kinds.values():
         for seed in kind.seeds:
             kind.file.write_bytes(seed)

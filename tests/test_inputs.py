@@ -7,7 +7,7 @@ import pytest
 
 import fuzz_inputs
 
-CASES = 400  # 10 of each kind
+CASES = 460  # 10 of each kind
 
 
 def test_mutated_inputs_are_read_or_refused_with_a_sentence(request):

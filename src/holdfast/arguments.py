@@ -34,7 +34,8 @@ def real_numbers(value: Any, what: str, wanted: str = "numbers in an array") -> 
     try:
         array = np.asarray(value)
         if array.dtype.kind in "biuf":
-            return array.astype(np.float64)
+            with np.errstate(invalid="ignore"):  # a signaling NaN becomes a quiet one
+                return array.astype(np.float64)
         kind = "complex numbers" if array.dtype.kind == "c" else "not numbers"
     except (TypeError, ValueError, OverflowError):
         kind = "not an array: its rows differ in length"

@@ -22,6 +22,7 @@ from holdfast.kernels import pool, set_threads
 from holdfast.regions.region import Region, default_region
 from holdfast.studies import read
 from holdfast.studies.results import assessed
+from sealing import read_unsealed_study
 
 TEXT = """
 name: small
@@ -244,7 +245,7 @@ def test_labels_of_a_damaged_study_are_named_and_mended(cli, ask, file, folder, 
     whole = tmp_path / "copy"
     assert cli("study", "merge", whole, folder)[0] == 0
     study = whole / "study.json"
-    data = json.loads(study.read_text())
+    data = read_unsealed_study(study)
     del data["cells"][0]["labels"]["arm"]
     study.write_text(json.dumps(data))
     code, _, err = cli("study", "report", whole)
@@ -372,7 +373,7 @@ def test_wrong_calls_are_sentences(refused, file, folder, tmp_path):
     assert "its seed is 3, asked for is 4" in refused("study", "run", file, "--out", folder)
     for command in ("status", "verify", "report"):
         assert "is not a study" in refused("study", command, tmp_path)
-    data = json.loads((folder / "study.json").read_text())
+    data = read_unsealed_study(folder / "study.json")
     copy = tmp_path / "copy"
     copy.mkdir()
     (copy / "study.json").write_text(json.dumps({**data, "seed": 8}))

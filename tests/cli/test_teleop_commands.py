@@ -257,5 +257,7 @@ def test_bad_options_of_an_analysis(refused, experiment):
 
 def test_a_used_folder_is_refused(refused, tiny, experiment):
     before = (experiment / "records.sqlite").read_bytes()
-    assert "not an empty folder" in refused("teleop", "run", "--simulated", "--protocol", tiny, "--out", experiment)
+    call = ["teleop", "run", "--simulated", "--protocol", tiny, "--operators", "3", "--out", experiment]
+    assert "its seed is 2, asked for is 1; give another folder" in refused(*call, "--seed", "1")
+    assert "not an empty folder" in refused(*call[:-1], experiment.parent)
     assert (experiment / "records.sqlite").read_bytes() == before

@@ -19,7 +19,7 @@ from holdfast.engine import Cell, Column, Store, Study, Threads, journal, merge
 from holdfast.engine.folder import digest, held
 from holdfast.engine.journal import Entry, Journal, Lines
 from holdfast.errors import StoreError
-from sealing import read_unsealed
+from sealing import read_unsealed, read_unsealed_study
 
 HERE = str(Path(__file__).parent)
 
@@ -90,7 +90,7 @@ def test_shares_for_machines_that_never_meet_merge_to_the_whole(tmp_path, straig
     for k, p in enumerate(parts):
         p.run(cells(), Threads(1), part=(k + 1, 3))
     assert sum(len(bits(p)) for p in parts) == 10
-    other = json.loads((parts[1].path / "made.json").read_text())
+    other = read_unsealed(parts[1].path / "made.json")
     other["makers"][0]["processor"] = "another kind"
     (parts[1].path / "made.json").write_text(json.dumps(other))
     found = merge(tmp_path / "whole", [p.path for p in parts])
@@ -250,7 +250,7 @@ DAMAGED = {
 def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
     make(tmp_path / "s")
     file = tmp_path / "s" / "study.json"
-    data = json.loads(file.read_text())
+    data = read_unsealed_study(file)
     DAMAGED[what](data["cells"][1])
     file.write_text(json.dumps(data))
     with pytest.raises(StoreError, match=r"is damaged: its cell 2 is missing or wrong"):
@@ -341,7 +341,7 @@ def test_other_studies_and_foreign_folders_are_refused(tmp_path):
 def test_a_damaged_study_file_is_a_sentence(change, tmp_path):
     study = make(tmp_path / "s")
     file = study.path / "study.json"
-    file.write_text(json.dumps({**json.loads(file.read_text()), **change}))
+    file.write_text(json.dumps({**read_unsealed_study(file), **change}))
     with pytest.raises(StoreError):
         Study.open(study.path)
     file.write_text("{")
@@ -352,7 +352,7 @@ def test_a_damaged_study_file_is_a_sentence(change, tmp_path):
 @pytest.mark.parametrize("key", ["labels", "rows", "chunk", "name", "digest"])
 def test_a_cell_that_lacks_something_is_named(key, tmp_path):
     study = make(tmp_path / "s")
-    data = json.loads((study.path / "study.json").read_text())
+    data = read_unsealed_study(study.path / "study.json")
     del data["cells"][1][key]
     (study.path / "study.json").write_text(json.dumps(data))
     with pytest.raises(StoreError, match=r"its cell 2 is missing or wrong"):

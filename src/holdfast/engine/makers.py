@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from holdfast.engine.folder import SAFE
-from holdfast.errors import StoreError
-from holdfast.files import reading
+from holdfast.errors import InputError, StoreError
+from holdfast.files.digest import seal_document
 from holdfast.files.output import replaced
+from holdfast.files.sealed import read_sealed
 
 _FILE = "made.json"
 
@@ -58,10 +58,10 @@ class Made:
         if not file.exists():
             return {"makers": [], "runs": []}
         try:
-            data = reading.parsed(file)
+            data = read_sealed(file)
             return {"makers": list(data["makers"]), "runs": list(data["runs"])}
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, InputError, KeyError, TypeError) as error:
             raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
 
     def _write(self, data: dict[str, list[Any]]) -> None:
-        replaced(self._folder / _FILE, json.dumps(data, indent=1), advice=SAFE)
+        replaced(self._folder / _FILE, seal_document({**data, "sealed": True}), advice=SAFE)

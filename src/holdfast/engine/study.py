@@ -16,9 +16,11 @@ from holdfast.engine.runner import Runner, Stop
 from holdfast.engine.state import CellStatus, Damage
 from holdfast.engine.store import Store
 from holdfast.engine.work import Progress, Work
-from holdfast.errors import HoldfastError, StoreError
+from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files import reading
+from holdfast.files.digest import seal_document
 from holdfast.files.output import guarded, occupied, replaced
+from holdfast.files.sealed import read_sealed
 from holdfast.notice import says
 from holdfast.result import Result
 from holdfast.words import duration
@@ -95,8 +97,10 @@ class Study(Result):
                 f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
-            data = reading.parsed(file)
-        except (OSError, ValueError) as error:
+            data = read_sealed(file, own_digest=True)
+            if data.pop("sealed", False):
+                data["digest"] = _digest(data)
+        except (OSError, ValueError, InputError) as error:
             raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
         if not isinstance(data, dict) or data.get("format") != _FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
@@ -126,7 +130,8 @@ class Study(Result):
         return study
 
     def _write(self, data: dict[str, Any]) -> None:
-        replaced(self.path / STUDY_FILE, json.dumps(data, indent=1))
+        entries = {key: value for key, value in data.items() if key != "digest"}
+        replaced(self.path / STUDY_FILE, seal_document({**entries, "sealed": True}))
         self._data = data
 
     def check_same(self, other: Study) -> None:

@@ -155,7 +155,8 @@ def _parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
         whole, chosen = (entry[1], int(entry[2])) if name not in table.column_names and entry else (name, None)
         try:
             if not _list_lengths(pyarrow, table[whole]):
-                return np.asarray(table[whole], dtype=np.float64)
+                with np.errstate(invalid="ignore"):  # a signaling NaN becomes a quiet one
+                    return np.asarray(table[whole], dtype=np.float64)
             values = np.array(table[whole].to_pylist(), dtype=np.float64)
         except Exception as error:  # lists of unequal lengths, text, dates, damaged pages
             raise InputError(f"column '{whole}' does not hold numbers or lists of numbers of one length") from error

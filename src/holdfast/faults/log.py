@@ -238,7 +238,7 @@ def _from_npz(path: Path) -> dict[str, Array]:
     with reading.guarded(advice="give an .npz or .csv file"):
         content = reading.raw(path)
     try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as data:
+        with np.load(io.BytesIO(content), allow_pickle=False) as data, np.errstate(invalid="ignore"):  # a signaling NaN
             return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _WIDTHS}
     except Exception as error:  # zipfile, zlib and NumPy have many ways of saying no
         raise InputError("it is no .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error

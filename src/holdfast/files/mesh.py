@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -93,8 +94,9 @@ def read(path: Path) -> tuple[Triangles, bytes]:
     trimesh = import_trimesh()
     try:
         # From memory: nothing that the file names, as a picture, is opened.
-        found = trimesh.load_mesh(io.BytesIO(content), file_type=kind, process=False)
-        vertices, faces = np.array(found.vertices, dtype=np.float64), np.array(found.faces, dtype=np.int64)
+        with np.errstate(invalid="ignore"):  # a signaling NaN, which is refused below
+            found = trimesh.load_mesh(io.BytesIO(content), file_type=kind, process=False)
+            vertices, faces = np.array(found.vertices, dtype=np.float64), np.array(found.faces, dtype=np.int64)
     except Exception as error:  # its readers fail in every way that Python knows
         raise InputError(f"'{path.name}' is damaged or not a mesh in the format {kind.upper()}; write it anew") from error
     return triangles(vertices, faces, f"'{path.name}'"), content
@@ -121,7 +123,7 @@ def _as_text(content: bytes) -> bool:
     return content[:5].lower() == b"solid" and b"facet" in content[:1000]
 
 
-def _stl(content: bytes, name: str) -> tuple[Array, Indices]:
+def _stl(content: bytes, name: str) -> tuple[NDArray[np.floating[Any]], Indices]:
     """The corners (3 F, 3) of the triangles of a whole STL file, and their numbers (F, 3)."""
     if _as_text(content):
         try:
@@ -132,7 +134,7 @@ def _stl(content: bytes, name: str) -> tuple[Array, Indices]:
             raise InputError(f"'{name}' is damaged: a triangle in it has not three vertices; write it anew")
     else:
         count = int.from_bytes(content[80:84], "little")
-        corners = np.frombuffer(content, _RECORD, count, 84)["corners"].reshape(-1, 3).astype(np.float64)
+        corners = np.frombuffer(content, _RECORD, count, 84)["corners"].reshape(-1, 3)
     return corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
 
 

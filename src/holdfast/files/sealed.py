@@ -10,7 +10,7 @@ from holdfast.files import reading
 from holdfast.files.digest import check_seal, is_sealed
 
 
-def read_sealed(path: str | Path, sealed_format: int | None = None) -> Any:
+def read_sealed(path: str | Path, sealed_format: int | None = None, own_digest: bool = False) -> Any:
     """Return the content of a JSON file without its digest, after comparing it with the digest.
 
     A file without a digest is read only if it does not state that it is sealed: earlier versions wrote none.
@@ -18,6 +18,7 @@ def read_sealed(path: str | Path, sealed_format: int | None = None) -> Any:
     Args:
         path: The file.
         sealed_format: Value of the key ``format`` that only sealed files have, if there is one.
+        own_digest: Files of earlier versions have an entry ``digest`` with another meaning, which is returned.
 
     Raises:
         OSError: The file cannot be read.
@@ -26,11 +27,10 @@ def read_sealed(path: str | Path, sealed_format: int | None = None) -> Any:
     """
     content = reading.raw(path).decode()  # exactly: a changed end of a line counts as well
     data = reading.parsed(path)
-    if isinstance(data, dict) and (
-        "sealed" in data or "digest" in data or is_sealed(content) or data.get("format", "") == sealed_format
-    ):
+    if not isinstance(data, dict):
+        raise InputError("it is not a JSON object")
+    stated = "sealed" in data or data.get("format", "") == sealed_format or ("digest" in data and not own_digest)
+    if stated or is_sealed(content):
         check_seal(content)
         del data["digest"]
-    elif not isinstance(data, dict):
-        raise InputError("it is not a JSON object")
     return data

@@ -184,7 +184,7 @@ def _keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
             field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
             if field is not None:  # else a tag, or a key that people choose, as the name of a link
                 annotation = field.annotation
-                model = next(_blocks(annotation))
+                model = next(_blocks(annotation), model)  # a name that people choose may be that of a field
             else:
                 model = next(_blocks(_tagged(annotation, step)), model)
     return [field.alias or name for name, field in model.model_fields.items()]

@@ -31,13 +31,15 @@ command = typer.Typer(
 
 @command.command()
 def run(
-    out: Annotated[Path, "New folder for the records."],
+    out: Annotated[Path, "Folder for the records; a stopped experiment resumes."],
     simulated: Annotated[bool, "With simulated people."] = False,
     operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
     protocol: Annotated[str, "goel2003, goel2003-smooth, or a file (YAML)."] = "goel2003",
 ) -> None:
     """Run an experiment with simulated operators.
+
+    Ctrl-C stops the run; the same command resumes it, with the same results.
 
     Example: holdfast teleop run --simulated --operators 24 --seed 1 --out experiment
     """
@@ -47,8 +49,6 @@ def run(
         )
     from holdfast.teleop import read_protocol, simulate_experiment
 
-    if reading.exists(out) and (not out.is_dir() or any(out.iterdir())):
-        raise StoreError(f"--out: '{out}' exists and is not an empty folder; give a new one")
     with (
         working(f"compiling the laws of {protocol}") as say,
         simulate_experiment(out, read_protocol(protocol), operators, seed=seed, progress=say) as records,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -17,7 +17,9 @@ from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.digests import FORMAT, Chain
 
 FILE, PROTOCOL = "records.sqlite", "protocol.yaml"
-_LOCK = "serve.lock"
+LOCK = "serve.lock"  # held by who writes the records of a whole folder
+_UNFINISHED = FILE + ".new"  # the file while an experiment is being created
+_JOURNAL = _UNFINISHED + "-journal"  # written by SQLite
 _BEGUN = "1"  # format of a file without digests, which get their tables after the rest
 _FORMATS = (_BEGUN, str(FORMAT))
 
@@ -46,28 +48,42 @@ CREATE INDEX events_of ON events (trial);
 """
 
 
-def make(folder: Path, protocol: Protocol) -> None:
-    """Write the files of an experiment that begins.
+def make(folder: Path, protocol: Protocol, about: Mapping[str, str]) -> None:
+    """Write the files of an experiment that begins, again where this was interrupted.
+
+    Args:
+        folder: A new or empty folder.
+        protocol: The protocol.
+        about: Further entries of the table ``about``.
 
     Raises:
         StoreError: The folder is not empty, or cannot be written.
     """
-    if reading.exists(folder) and (not folder.is_dir() or any(folder.iterdir())):
-        raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
+    unfinished = folder / _UNFINISHED
     try:
+        if reading.exists(folder) and (not folder.is_dir() or _is_occupied(folder, protocol)):
+            raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
         folder.mkdir(parents=True, exist_ok=True)
+        (folder / _JOURNAL).unlink(missing_ok=True)
+        unfinished.write_bytes(b"")
         kept = protocols.read_protocol(protocol.write(folder / PROTOCOL))
-        with closing(sqlite3.connect(folder / (FILE + ".new"), isolation_level=None)) as db:
+        with closing(sqlite3.connect(unfinished, isolation_level=None)) as db:
             db.executescript(_SCHEMA)
             made_by = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
-            about = {"format": _BEGUN, "protocol": kept.text(), "versions": made_by, "began": now()}
+            entries = {**about, "format": _BEGUN, "protocol": kept.text(), "versions": made_by, "began": now()}
             db.execute("BEGIN")
-            db.executemany("INSERT INTO about VALUES (?, ?)", about.items())
+            db.executemany("INSERT INTO about VALUES (?, ?)", entries.items())
             Chain(db, folder, beside(kept)).prepare()
             db.execute("COMMIT")
-        (folder / (FILE + ".new")).rename(folder / FILE)  # a folder with this file is whole
+        unfinished.rename(folder / FILE)  # a folder with this file is whole
     except (OSError, sqlite3.Error) as error:
         raise StoreError(f"cannot write to '{folder}': {error}; choose another folder") from error
+
+
+def _is_occupied(folder: Path, protocol: Protocol) -> bool:
+    """Return whether a folder holds anything but the files of an experiment whose creation was interrupted."""
+    names = {file.name for file in folder.iterdir()}
+    return bool(names - {_UNFINISHED, _JOURNAL, PROTOCOL, protocol.arm_spec}) or bool(names) > (_UNFINISHED in names)
 
 
 def beside(protocol: Protocol) -> list[str]:
@@ -121,7 +137,7 @@ def connect(folder: Path) -> tuple[sqlite3.Connection, Protocol, bool]:
         raise StoreError(f"'{folder}' holds no experiment: there is no {FILE} in it; begin one in a new folder")
     try:
         db, read_only = opened(file)
-    except sqlite3.Error as error:
+    except (sqlite3.Error, ValueError) as error:  # names in a damaged file need not be UTF-8
         raise _damaged(file, error) from error
     try:
         return db, _checked(folder, db), read_only
@@ -177,7 +193,7 @@ def alone(folder: Path) -> Iterator[None]:
 
     with ExitStack() as held_:
         try:
-            held_.enter_context(held(folder, _LOCK))
+            held_.enter_context(held(folder, LOCK))
         except StoreError as error:
             if not isinstance(error.__cause__, BlockingIOError):
                 raise

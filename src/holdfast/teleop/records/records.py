@@ -54,15 +54,20 @@ class Records:
     # ---- opening ---------------------------------------------------------------------------------------------------
 
     @classmethod
-    def create(cls, folder: str | Path, protocol: Protocol) -> Records:
+    def create(cls, folder: str | Path, protocol: Protocol, simulation: Mapping[str, Any] | None = None) -> Records:
         """Begin an experiment in a new or empty folder.
 
         The protocol, and the arm's file if it has one, are copied into the folder.
 
+        Args:
+            folder: The folder.
+            protocol: The protocol.
+            simulation: JSON data that define the results where all subjects are simulated; see :attr:`simulation`.
+
         Raises:
             StoreError: The folder is not empty, or cannot be written.
         """
-        make(Path(folder), protocol)
+        make(Path(folder), protocol, {} if simulation is None else {"simulation": json.dumps(simulation)})
         return cls.open(folder)
 
     @classmethod
@@ -90,6 +95,12 @@ class Records:
         """What the experiment was begun with."""
         found: dict[str, str] = json.loads(self._value("SELECT value FROM about WHERE key = 'versions'"))
         return found
+
+    @property
+    def simulation(self) -> dict[str, Any] | None:
+        """JSON data that define the results of a simulated experiment; None for an experiment with people."""
+        row = self._db.execute("SELECT value FROM about WHERE key = 'simulation'").fetchone()
+        return None if row is None else dict(json.loads(row[0]))
 
     # ---- subjects --------------------------------------------------------------------------------------------------
 

@@ -86,7 +86,7 @@ class Session:
         training = done(self.records.entries(code, Kind.TRAINING))
         criterion = protocol.training
         trials = done(self.records.entries(code, Kind.TRIAL))
-        if not trials and not criterion.trained(self._cycles(training)):
+        if not trials and not criterion.trained(completion_times(self.records, training)):
             if len(training) >= criterion.most:
                 return None
             k = len(training)
@@ -108,8 +108,10 @@ class Session:
         trained, trials = (len(done(self.records.entries(self.subject.code, kind))) for kind in (Kind.TRAINING, Kind.TRIAL))
         return f"{trained} training tasks, {trials} of {len(self._order)} trials"
 
-    def _cycles(self, entries: list[Entry]) -> list[float]:
-        return [float(self.records.count(e)) if e.end == End.ARRIVED else np.nan for e in entries]
+
+def completion_times(records: Records, entries: list[Entry]) -> list[float]:
+    """Return the completion time of each trial in cycles; NaN for trials that were not completed."""
+    return [float(records.count(e)) if e.end == End.ARRIVED else np.nan for e in entries]
 
 
 def done(entries: list[Entry]) -> list[Entry]:

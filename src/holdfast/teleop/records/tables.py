@@ -19,6 +19,7 @@ from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Entry, Kind, Subject, Who
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import done
+from holdfast.teleop.records.verification import refuse_damage
 from holdfast.teleop.trials.driving import Computer, Rules
 from holdfast.teleop.trials.performance import MEASURES, RECORDED, measures
 from holdfast.teleop.trials.recordings import End, Trials
@@ -69,7 +70,11 @@ def trial_table(records: Records, kinds: Sequence[Kind] = (Kind.TRIAL,)) -> pd.D
     Returns:
         A table with the columns that :func:`dictionary` describes; measures in the units of
         :data:`holdfast.teleop.MEASURES`.
+
+    Raises:
+        StoreError: The records are damaged: something in them does not match its digest.
     """
+    refuse_damage(records.folder)
     entries = [e for s in records.subjects() for kind in kinds for e in done(records.entries(s.code, kind))]
     subjects = {s.code: s for s in records.subjects()}
     return _table(records.protocol, records.trials(entries), [_facts(subjects[e.subject], e) for e in entries])
@@ -192,7 +197,16 @@ def tool_paths(records: Records) -> Callable[[str | None, int, int], Array | Non
 
 @says("reading the records")
 def cycle_table(records: Records) -> pd.DataFrame:
-    """One row for each cycle of every trial, with one more for where the arm was at the end."""
+    """One row for each cycle of every trial, with one more for where the arm was at the end.
+
+    Raises:
+        StoreError: The records are damaged: something in them does not match its digest.
+    """
+    refuse_damage(records.folder)
+    return _cycles(records)
+
+
+def _cycles(records: Records) -> pd.DataFrame:
     import pandas as pd
 
     protocol = records.protocol
@@ -245,7 +259,7 @@ def export(records: Records, folder: str | Path, parquet: bool = False) -> list[
 
     Raises:
         HoldfastError: Parquet was asked for and pyarrow is not installed.
-        StoreError: A file cannot be written.
+        StoreError: The records are damaged, or a file cannot be written.
     """
     import pandas as pd
 
@@ -263,7 +277,7 @@ def export(records: Records, folder: str | Path, parquet: bool = False) -> list[
     events = [{**e, "data": json.dumps(e["data"], ensure_ascii=False) if e["data"] else ""} for e in records.events()]
     tables = {
         "trials": trial_table(records, (Kind.TRAINING, Kind.TRIAL)),
-        "cycles": cycle_table(records),
+        "cycles": _cycles(records),
         "subjects": pd.DataFrame(subjects),
         "events": pd.DataFrame(events),
     }

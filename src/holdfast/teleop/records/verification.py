@@ -17,6 +17,8 @@ from holdfast.teleop.records.file import FILE, opened
 from holdfast.teleop.records.records import Records
 
 _STATES = ("experiment", "subject", "rating")  # change: only the last digest of each is of what is there now
+# What damaged data make SQLite and the code that reads them raise.
+_OF_DAMAGE = (sqlite3.Error, ValueError, TypeError, AttributeError, LookupError, OverflowError, MemoryError)
 _ITEMS = {  # what must have a digest: number, subject, and what a person calls it
     "trial": "SELECT id, subject, 'trial ' || id FROM trials WHERE end IS NOT NULL AND id > ? ORDER BY id",
     "rating": "SELECT id, subject, 'the rating of trial ' || id FROM trials WHERE id > ? ORDER BY id",
@@ -82,7 +84,7 @@ def verify(folder: str | Path) -> Verified:
             db.execute("BEGIN")
             _Check(path, db, found).run()
     # What a damaged file may make SQLite say, and what does not fit together any more.
-    except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError, MemoryError) as error:
+    except _OF_DAMAGE as error:
         found.damaged.append(f"'{file}' is damaged: {error}")
     # A damaged name may hold what no terminal takes.
     found.damaged = ["".join(c if c.isprintable() else "?" for c in sentence) for sentence in found.damaged]
@@ -101,11 +103,21 @@ def readable(folder: Path) -> Iterator[Records]:
             yield records
     except HoldfastError:
         raise
-    except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError) as error:
-        damaged = verify(folder).damaged
-        if not damaged:
-            raise
-        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup") from error
+    except _OF_DAMAGE as error:
+        refuse_damage(folder)
+        raise StoreError(
+            f"'{folder}' is damaged: it holds other data than records ({error}); restore it from a backup"
+        ) from error
+
+
+def refuse_damage(folder: Path) -> None:
+    """Compare everything that is stored with its digests before it is used.
+
+    Raises:
+        StoreError: Something is not as it was written.
+    """
+    if damaged := verify(folder).damaged:
+        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup")
 
 
 class _Check:
@@ -127,7 +139,7 @@ class _Check:
         for check in (self._with_digests, self._file):
             try:
                 check()
-            except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError, MemoryError) as error:
+            except _OF_DAMAGE as error:
                 trouble = trouble or error
         self._found.damaged += self._others
         if trouble is not None:
