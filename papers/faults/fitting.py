@@ -24,8 +24,8 @@ def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, number: int) -> dict[str, A
     robot, onset = SEEDS + number, events[0].onset
     healthy = hf.diagnosis.rehearse(arm, HEALTHY_S, seed=HEALTHY_SEEDS + number, body=robot)
     log = hf.diagnosis.rehearse(arm, LENGTH, seed=robot, faults=events)
-    friction = {"coulomb": np.full(arm.n, COULOMB), "viscous": np.full(arm.n, VISCOUS)}
-    fitted = hf.diagnosis.calibrate(arm, [healthy], **friction, fit=True)
+    dry, wet = np.full(arm.n, COULOMB), np.full(arm.n, VISCOUS)
+    fitted = hf.diagnosis.calibrate(arm, [healthy], coulomb=dry, viscous=wet, fit=True)
     answers: dict[str, Any] = {"joint": arm.joint_index(events[0].joint) + 1}
     for name, chosen in (("many", bounds), ("fitted", fitted)):
         verdict = hf.diagnosis.diagnose(arm, log, chosen).verdict
