@@ -8,7 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import holdfast as hf
-from papers.faults import blind, healthy, probes, pushes, records
+from papers.faults import blind, fitting, healthy, probes, pushes, records
 from papers.faults.store import CALIBRATED, Store
 
 HERE = Path(__file__).parent
@@ -21,6 +21,7 @@ SIZES = {  # and what they are when nothing else is asked for
     "pushes": (21, "pushes, the links in turn"),
     "blind": (4, "files of logs for the command line; 0: none"),
     "probes": (5, "configurations of self-motions; 0: none"),
+    "fitted": (0, "robots whose masses are fitted; 0: none"),
 }
 
 
@@ -57,6 +58,8 @@ def main() -> None:
         lines += blind.table(store, chosen.blind)
     if chosen.probes:
         lines += probes.table(store, chosen.probes)
+    if chosen.fitted:
+        lines += fitting.table(store, bounds, chosen.robots, chosen.fitted)
     (HERE / f"RECORDS-{chosen.arm}.md").write_text("\n".join(lines), encoding="utf-8")
     print("\n".join(lines))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from papers.faults import blind, chain, records
+from papers.faults import blind, chain, fitting, records
 from papers.faults.store import Store, limits
 from scipy.stats import beta, binomtest
 
@@ -47,3 +47,21 @@ def test_measured_delays_are_compared_with_the_prediction():
     assert "0.40 to 2.00" in line
     assert f"is {np.median([0.4, 0.6, 1.2, 2.0]):.2f} in the median" in line
     assert "3 of 4" in line
+
+
+def test_fitted_masses_are_compared_on_the_losses_that_both_bounds_state(monkeypatch):
+    """Three robots whose answers are known: detected with both bounds, with fitted ones alone, and before the fault."""
+    silent = {"early": False, "right": False, "kind": "unknown"}
+    stated = {"early": False, "right": True, "kind": "weak", "uncertainty": 0.05}
+    answers = [
+        {"joint": 1, "many": {**stated, "error": 0.08}, "fitted": {**stated, "error": 0.02}},
+        {"joint": 1, "many": silent, "fitted": {**stated, "error": 0.04, "kind": "sluggish"}},
+        {"joint": 1, "many": {**silent, "early": True, "kind": "limp"}, "fitted": silent},
+    ]
+    monkeypatch.setattr(fitting, "judged", lambda arm, bounds, k: answers[k])
+    text = fitting.table(Store(None, hf.arms.load("planar-3r")), None, 60, len(answers))
+    many, fitted, many_both, fitted_both, weak = (line.split(" | ") for line in text if line.startswith(("| of", "| fit")))
+    assert many[1:] == [f"1 of 3 ({limits(1, 3)} %)", "1", "1", "0.080 / 0.080 / 0.080", "0 of 1 (0 to 97.5 %) |"]
+    assert fitted[1:5] == [f"2 of 3 ({limits(2, 3)} %)", "0", "2", "0.030 / 0.038 / 0.040"]
+    assert (many_both[4], fitted_both[4], weak[4]) == ("0.080 / 0.080 / 0.080", *["0.020 / 0.020 / 0.020"] * 2)
+    assert weak[3] == "1"

@@ -8,6 +8,7 @@ from papers.faults.policy import __main__ as counting
 from papers.faults.policy import network, train
 from papers.faults.policy.task import LIMIT, environment, finished, kinds
 from papers.faults.policy.teacher import Teacher
+from scipy.stats import binomtest
 
 pytest.importorskip("gymnasium")
 FEW = 6
@@ -98,8 +99,10 @@ def test_counting_goes_on_and_tries_other_ways_where_nobody_finished(monkeypatch
     assert [k for act, k in asked if act == "a"] == [1, 2]
     assert [k for act, k in asked if act.startswith("way")] == [2, 2]
     done |= {"healthy": done["a"], "faults": [False] * 3}
-    assert counting.row("none", done)[:3] == ["none", "100.0 (29 to 100)", "0.0 (0 to 71)"]
+    assert counting.row("none", done)[:3] == ["none", "100.0 (29.24 to 100)", "0.0 (0 to 70.76)"]
     assert counting.row("none", done)[3].startswith("66.7 (")
+    exact = binomtest(296, 300).proportion_ci(0.95, method="exact")  # its upper end is not rounded to 100
+    assert counting.percent(296, 300) == f"98.7 ({100 * exact.low:.4g} to {100 * exact.high:.4g})"
 
 
 def test_training_goes_on_to_the_same_weights(tmp_path, monkeypatch):

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from holdfast.faults import FaultWrapper
-from holdfast.probability import Interval
 from papers.faults.policy.network import Policy, load
 from papers.faults.policy.task import NEAR, ONSET, STEPS, environment, finished, kinds
 from papers.faults.policy.teacher import PARTS, Teacher
+from papers.faults.store import limits
 
 HERE = Path(__file__).parent
 HEALTHY = "none"
@@ -60,9 +60,8 @@ def row(kind: str, done: dict[str, list[bool]]) -> list[str]:
 
 
 def percent(some: int, count: int) -> str:
-    """With its exact interval."""
-    found = Interval.of(some, count)
-    return f"{100 * some / count:.1f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
+    """Format a percentage with its exact 95 % interval."""
+    return f"{100 * some / count:.1f} ({limits(some, count)})"
 
 
 def text(rows: Sequence[Sequence[str]], count: int, policies: dict[str, Policy]) -> str:
